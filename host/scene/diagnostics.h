@@ -1,0 +1,36 @@
+// Diagnostics: what the user wrote wrongly (or unwisely), with its place; many, collected, shown at the end.
+#ifndef CLRT_SCENE_DIAGNOSTICS_H
+#define CLRT_SCENE_DIAGNOSTICS_H
+
+#include <stdio.h>
+
+#include "base/types.h"
+
+typedef struct Diagnostics Diagnostics;
+
+typedef enum Severity { SEVERITY_WARNING, SEVERITY_ERROR } Severity;
+
+enum { DIAGNOSTICS_SHOWN_MAX = 20 };
+
+// Returns NULL when memory is exhausted.
+Diagnostics *diagnostics_create(void);
+void diagnostics_destroy(Diagnostics *diagnostics);
+
+// Adds a message about length characters from column of line in the file called file_name (line and
+// column from 1). source_line is the text of that line without its end (copied; may be NULL where
+// there is none). Messages beyond DIAGNOSTICS_SHOWN_MAX are counted, not kept.
+void diagnostics_add(Diagnostics *diagnostics, Severity severity, const char *file_name, u32 line,
+                     u32 column, u32 length, const char *source_line, const char *format, ...)
+    __attribute__((format(printf, 8, 9)));
+
+u32 diagnostics_error_count(const Diagnostics *diagnostics);
+u32 diagnostics_warning_count(const Diagnostics *diagnostics);
+
+// Prints each kept message as
+//   scene.txt:3:9: error: unknown property 'radus' of sphere; did you mean 'radius'?
+//       sphere { radus 1 }
+//                ^~~~~
+// in the order of the text, and a last line when some were left out.
+void diagnostics_print(const Diagnostics *diagnostics, FILE *stream);
+
+#endif
