@@ -33,6 +33,7 @@ typedef struct Camera {
     f64 fov;    // degrees, vertical; perspective only
     f64 height; // of the view in units; orthographic only
     f64 aperture, focus_distance; // radius of the lens, 0 for the pinhole
+    SourcePos aperture_at;
 } Camera;
 
 typedef enum Integrator { INTEGRATOR_WHITTED, INTEGRATOR_PATH } Integrator;
@@ -47,6 +48,7 @@ typedef struct RenderSettings {
     u32 environment_samples;
     EnvironmentLighting environment_lighting;
     bool shadows;
+    SourcePos integrator_at, ambient_occlusion_at;
 } RenderSettings;
 
 typedef enum ToneMap {
@@ -146,6 +148,7 @@ typedef struct Material {
     f64 ior;
     ColorInput emission;
     i32 normal_map; // texture index, -1: none
+    SourcePos normal_map_at;
 } Material;
 
 // ---- shapes ---------------------------------------------------------------------------------
@@ -235,6 +238,7 @@ typedef struct Scene {
     u32 object_count;
     Group world;         // top-level shapes, instances and area lights
     const char **files;  // names of the files read, as given or as included; [0] is the scene's
+    const char **file_texts; // of each file, ending in 0, for messages about its places
     u32 file_count;
 } Scene;
 

@@ -4,6 +4,9 @@
 
 #include "base/vec.h"
 
+// In place of the index of a primitive or an instance.
+#define NO_HIT (-1)
+
 typedef struct {
     v3 org;    // in the space of the primitive
     v3 dir;    // unit in render space, of any length within an instance; t counts in multiples of it

@@ -1,25 +1,33 @@
 // Primitive: one analytic shape in its canonical form, as traversal reads it.
 //
-// Every kind but triangle has a local space of its own, q = A (p - c), with p in the space of the
-// hierarchy that holds the primitive (render space, or the space of an object that is instanced), A in
-// row0..row2.xyz and c in row0..row2.w. Its axes follow the texture rule of the scene language (t1, t2, n),
-// so that texture coordinates are simple functions of q:
+// p is a point in the space of the hierarchy that holds the primitive (render space, whose origin is the
+// camera, or the space of an object that is instanced); A is row0..row2.xyz, c is row0..row2.w. Axes follow
+// the texture rule of the scene language (t1, t2, n), so that texture coordinates are simple functions of q.
+// Planes are kept as offsets from the origin of the space, computed in double: their error is then relative
+// to their distance from the camera, however large the shape.
 //
 //   SPHERE       similarity: A = the rotation to object axes (rows orthonormal), c = centre, p0 = radius
-//   ELLIPSOID    a sphere under any other transform: |q| = 1, q along object axes
+//   GIANT_SPHERE the same where the surface passes close by the origin of the space: p1 = |c|^2 - r^2, computed
+//                in double; the surface is |p|^2 - 2 c.p + p1 = 0, so that rounding c moves it little there
+//   ELLIPSOID    a sphere under any other transform: q = A (p - c), |q| = 1, q along object axes
 //   PLANE        row2.xyz = unit normal n; p0 = n.p on the plane; row0.xyz, row1.xyz = gradients of u and v;
 //                u = row0.p + (row0.w + row1.w), v = row1.p + (row2.w + p1): first term of each sum a whole
-//                number, second one in [0, 1)
-//   BOX          the cube |q_i| <= 1 (any affine image of it)
-//   TETRAHEDRON  a -> 0, b -> x, c -> y, d -> z: q_i >= 0, q_x + q_y + q_z <= 1; c = vertex a
-//   DISK         q_z = 0, q_x^2 + q_y^2 <= 1; x = t1, y = t2, z = n
-//   CYLINDER     q_x^2 + q_y^2 = 1, |q_z| <= 1 from base (-1) to top (+1); x = t1, y = t2, z = n; p0 = 1: caps
-//   CONE         q_x^2 + q_y^2 = (1 + p1 (q_z - 1) / 2)^2 or, where the base is the wider end,
-//                (1 - p1 (q_z + 1) / 2)^2, p1 in [0, 1] the relative narrowing (1: an apex); p0 = 1: caps,
-//                p0 bit 1 (value 2 added): the top is the wider end
-//   TORUS        (rho - 1)^2 + q_z^2 = p0^2, rho = |(q_x, q_y)|, p0 = minor / major; x = t1, y = t2, z = axis
-//   TRIANGLE     row0.xyz, row1.xyz, row2.xyz = vertices; p0 = 1, or -1 where a mirroring transform has been
-//                baked in and the geometric normal is therefore -(b-a) x (c-a)
+//                number, second one what is missing (less than 1 up to 2^24)
+//   BOX          q = A p + c, 0 <= q_i <= 1; q_i = 0 is the face of its pair that is nearer to the origin of
+//                the space; p0 = 1, 2, 4 added where q_x, q_y, q_z run against the object's axis
+//   TETRAHEDRON  q = A p + c >= 0: the barycentric weights of b, c, d; that of a is
+//                p0 - (row0 + row1 + row2).p >= 0
+//   DISK         row2.xyz = unit normal, p0 = row2.p on the disk; x = row0.(p - c), y = row1.(p - c) along
+//                t1 and t2, x^2 + y^2 <= 1
+//   CYLINDER     q = A (p - c), q_x^2 + q_y^2 = 1, |q_z| <= 1 from base (-1) to top (+1); x = t1, y = t2,
+//                z = n; p0 = 1: caps
+//   CONE         q = A (p - c), q_x^2 + q_y^2 = (1 - p1 (q_z + 1) / 2)^2, |q_z| <= 1, from the wider end (-1)
+//                to the narrower one (+1); p1 in [0, 1]: the relative narrowing (1: an apex); x = t1, y = t2
+//                of the axis from base to top; p0 = 1: caps; 2 added: the wider end is the top
+//   TORUS        q = A (p - c), (rho - 1)^2 + q_z^2 = p0^2, rho = |(q_x, q_y)|, p0 = minor / major; x = t1,
+//                y = t2, z = axis
+//   TRIANGLE     row0.xyz, row1.xyz, row2.xyz = vertices; c = the unit geometric normal n (against
+//                (b-a) x (c-a) where a mirroring transform has been baked in), p1 = n.a
 #ifndef CLRT_SHARED_PRIMITIVE_H
 #define CLRT_SHARED_PRIMITIVE_H
 
@@ -35,7 +43,8 @@
 #define PRIMITIVE_CONE 7
 #define PRIMITIVE_TORUS 8
 #define PRIMITIVE_TRIANGLE 9
-#define PRIMITIVE_KIND_COUNT 10
+#define PRIMITIVE_GIANT_SPHERE 10
+#define PRIMITIVE_KIND_COUNT 11
 
 typedef struct Primitive {
     f32x4 row0; // see above; lengths in scene units

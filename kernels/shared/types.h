@@ -2,7 +2,7 @@
 #ifndef CLRT_SHARED_TYPES_H
 #define CLRT_SHARED_TYPES_H
 
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 typedef float f32;
 typedef int i32;
 typedef uint u32;
@@ -11,7 +11,9 @@ typedef float4 f32x4;
 #define LAYOUT_SIZE(type, bytes) typedef char type##_size_check[sizeof(type) == (bytes) ? 1 : -1]
 #define LAYOUT_OFFSET(type, member, bytes)
 #else
-#include "base/types.h"
+#ifndef CLRT_BASE_TYPES_H
+#error "host code includes base/types.h before the shared headers" // kernels include nothing from host/
+#endif
 typedef struct f32x4 {
     _Alignas(16) f32 x;
     f32 y, z, w;

@@ -1,0 +1,16 @@
+// What --list-devices prints. Knows nothing of OpenCL but the list.
+#ifndef CLRT_CLI_DEVICES_H
+#define CLRT_CLI_DEVICES_H
+
+#include <stdio.h>
+
+#include "base/error.h"
+#include "device/list.h"
+
+// A line a device, each with what --device takes for it, and a line for each platform without devices.
+void devices_print(const DeviceList *list, FILE *stream);
+
+// The same as a JSON object with the arrays "devices" and "platforms". Fails with ERROR_MEMORY.
+bool devices_print_json(const DeviceList *list, FILE *stream, Error *error);
+
+#endif

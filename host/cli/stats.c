@@ -1,0 +1,103 @@
+#include "cli/stats.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <string.h>
+#include <sys/resource.h>
+
+static const f64 MIB = 1024.0 * 1024.0;
+
+// In the order of RenderStats.rays.
+static const char *const RAY_KINDS[] = {"camera", "shadow", "mirrored", "transmitted"};
+enum { RAY_KIND_COUNT = 4 };
+
+u64 stats_host_bytes_peak(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (u64)usage.ru_maxrss * 1024 : 0;
+}
+
+static u64 ray_count(const RenderStats *render)
+{
+    u64 count = 0;
+    for (u32 i = 0; i < RAY_KIND_COUNT; i++)
+        count += render->rays[i];
+    return count;
+}
+
+static f64 rays_a_second(const RenderStats *render)
+{
+    return render->trace_seconds > 0 ? (f64)ray_count(render) / render->trace_seconds : 0;
+}
+
+void stats_print(const RunStats *stats, FILE *stream)
+{
+    const RenderStats *render = stats->render;
+    fprintf(stream, "picture   %u x %u on %s\n", stats->width, stats->height, stats->device_name);
+    fprintf(stream, "time      %.3f s: device %.3f, scene %.3f, layout %.3f, compile %.3f, trace %.3f\n",
+            stats->total_seconds, stats->device_seconds, stats->parse_seconds, stats->layout_seconds,
+            render->compile_seconds, render->trace_seconds);
+    fprintf(stream, "rays      %llu, %.2f M/s:", (unsigned long long)ray_count(render),
+            rays_a_second(render) * 1e-6);
+    for (u32 i = 0; i < RAY_KIND_COUNT; i++)
+        fprintf(stream, "%s %s %llu", i ? "," : "", RAY_KINDS[i], (unsigned long long)render->rays[i]);
+    fprintf(stream, "\nmemory    device %.1f MiB: scene %.1f, state %.1f, film %.1f; host %.1f MiB\n",
+            (f64)stats->device_bytes_peak / MIB, (f64)render->scene_bytes / MIB, (f64)render->state_bytes / MIB,
+            (f64)render->film_bytes / MIB, (f64)stats_host_bytes_peak() / MIB);
+    fprintf(stream, "launches  %u, %u rows a band, %u tiles in flight\nfeatures ", render->launches,
+            render->band_rows, render->groups);
+    for (u32 i = 0; i < FEATURE_COUNT; i++)
+        if (features_have(stats->layout->features, (Feature)i))
+            fprintf(stream, " %s", feature_name((Feature)i));
+    fputc('\n', stream);
+}
+
+static json_t *rays_to_json(const RenderStats *render)
+{
+    json_t *rays = json_object();
+    for (u32 i = 0; i < RAY_KIND_COUNT; i++)
+        json_object_set_new(rays, RAY_KINDS[i], json_integer((json_int_t)render->rays[i]));
+    return rays;
+}
+
+static json_t *features_to_json(FeatureSet features)
+{
+    json_t *names = json_array();
+    for (u32 i = 0; i < FEATURE_COUNT; i++)
+        if (features_have(features, (Feature)i))
+            json_array_append_new(names, json_string(feature_name((Feature)i)));
+    return names;
+}
+
+static json_t *to_json(const RunStats *stats)
+{
+    const RenderStats *render = stats->render;
+    json_t *name = json_string(stats->device_name); // NULL where it is no UTF-8
+    return json_pack(
+        "{s:i, s:i, s:o?, s:{s:f, s:f, s:f, s:f, s:f, s:f}, s:f, s:o, s:{s:I, s:I, s:I, s:I, s:I}, s:i, s:i, "
+        "s:i, s:o}",
+        "width", (int)stats->width, "height", (int)stats->height, "device", name, //
+        "seconds", "total", stats->total_seconds, "device", stats->device_seconds, "scene", stats->parse_seconds,
+        "layout", stats->layout_seconds, "compile", render->compile_seconds, "trace", render->trace_seconds, //
+        "rays_per_second", rays_a_second(render), "rays", rays_to_json(render), //
+        "bytes", "device_peak", (json_int_t)stats->device_bytes_peak, "scene", (json_int_t)render->scene_bytes,
+        "state", (json_int_t)render->state_bytes, "film", (json_int_t)render->film_bytes, "host_peak",
+        (json_int_t)stats_host_bytes_peak(), //
+        "launches", (int)render->launches, "band_rows", (int)render->band_rows, "tiles_in_flight",
+        (int)render->groups, "features", features_to_json(stats->layout->features));
+}
+
+bool stats_write_json(const RunStats *stats, const char *path, Error *error)
+{
+    json_t *all = to_json(stats);
+    if (!all)
+        return error_set(error, ERROR_MEMORY, "no memory for the statistics");
+    FILE *file = fopen(path, "w");
+    bool ok = file && json_dumpf(all, file, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
+    json_decref(all);
+    if (file) {
+        fputc('\n', file);
+        ok = fclose(file) == 0 && ok;
+    }
+    return ok || error_set(error, ERROR_IO, "%s: %s", path, strerror(errno));
+}

@@ -1,0 +1,248 @@
+#include "cli/table.h"
+
+#include <ctype.h>
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+
+enum {
+    SIZE_MAX_PIXELS = 65536,
+    SAMPLES_MAX = 1048576,
+    DEPTH_MAX = 64,
+    MEMORY_MAX_MIB = 1 << 24,
+    THREADS_MAX = 65536
+};
+
+// Reads decimal digits and returns what follows them; NULL where there are none or beyond 2^32 - 1.
+static const char *read_whole(const char *text, u32 *number)
+{
+    if (!isdigit((unsigned char)*text))
+        return NULL;
+    u64 value = 0;
+    for (; isdigit((unsigned char)*text); text++) {
+        value = value * 10 + (u64)(*text - '0');
+        if (value > UINT32_MAX)
+            return NULL;
+    }
+    *number = (u32)value;
+    return text;
+}
+
+// Reads count whole numbers with the separator between them, and nothing else.
+static bool read_wholes(const char *text, char separator, u32 *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        text = read_whole(text, &numbers[i]);
+        if (!text || *text != (i + 1 < count ? separator : '\0'))
+            return false;
+        text++;
+    }
+    return true;
+}
+
+static bool read_within(const char *text, u32 low, u32 high, u32 *number)
+{
+    return read_wholes(text, '\0', number, 1) && *number >= low && *number <= high;
+}
+
+static bool read_real(const char *text, f64 *number)
+{
+    return text_parse_decimal(text, strlen(text), number) && fabs(*number) <= FLT_MAX;
+}
+
+static const char *take_device(Options *options, const char *value)
+{
+    options->device = value;
+    return NULL;
+}
+
+static const char *take_list_devices(Options *options, const char *value)
+{
+    (void)value;
+    options->action = ACTION_LIST_DEVICES;
+    return NULL;
+}
+
+static const char *take_json(Options *options, const char *value)
+{
+    (void)value;
+    options->json = true;
+    return NULL;
+}
+
+static const char *take_memory(Options *options, const char *value)
+{
+    u32 mib;
+    if (!read_within(value, 1, MEMORY_MAX_MIB, &mib))
+        return "a whole number of MiB from 1 to 16777216";
+    options->memory = (u64)mib << 20;
+    return NULL;
+}
+
+static const char *take_threads(Options *options, const char *value)
+{
+    return read_within(value, 1, THREADS_MAX, &options->threads) ? NULL : "a whole number from 1 to 65536";
+}
+
+static const char *take_size(Options *options, const char *value)
+{
+    u32 size[2];
+    if (!read_wholes(value, 'x', size, 2) || !size[0] || !size[1] || size[0] > SIZE_MAX_PIXELS ||
+        size[1] > SIZE_MAX_PIXELS)
+        return "WxH, each from 1 to 65536";
+    options->size_given = true;
+    options->width = size[0];
+    options->height = size[1];
+    return NULL;
+}
+
+static const char *take_samples(Options *options, const char *value)
+{
+    options->samples_given = true;
+    return read_within(value, 1, SAMPLES_MAX, &options->samples) ? NULL : "a whole number from 1 to 1048576";
+}
+
+static const char *take_seed(Options *options, const char *value)
+{
+    options->seed_given = true;
+    return read_within(value, 0, UINT32_MAX, &options->seed) ? NULL : "a whole number from 0 to 4294967295";
+}
+
+static const char *take_depth(Options *options, const char *value)
+{
+    options->depth_given = true;
+    return read_within(value, 0, DEPTH_MAX, &options->depth) ? NULL : "a whole number from 0 to 64";
+}
+
+static const char *take_crop(Options *options, const char *value)
+{
+    u32 crop[4];
+    if (!read_wholes(value, ',', crop, 4) || crop[0] >= SIZE_MAX_PIXELS || crop[1] >= SIZE_MAX_PIXELS ||
+        !crop[2] || !crop[3] || crop[2] > SIZE_MAX_PIXELS || crop[3] > SIZE_MAX_PIXELS)
+        return "X,Y,W,H in pixels, W and H from 1 to 65536";
+    options->crop_given = true;
+    options->crop_x = crop[0];
+    options->crop_y = crop[1];
+    options->crop_width = crop[2];
+    options->crop_height = crop[3];
+    return NULL;
+}
+
+static const char *take_bits(Options *options, const char *value)
+{
+    options->bits_given = true;
+    const bool read = read_within(value, 8, 16, &options->bits);
+    return read && (options->bits == 8 || options->bits == 16) ? NULL : "8 or 16";
+}
+
+static const char *take_exposure(Options *options, const char *value)
+{
+    options->exposure_given = true;
+    return read_real(value, &options->exposure) ? NULL : "a number of stops";
+}
+
+static const char *take_tone_map(Options *options, const char *value)
+{
+    static const char *const NAMES[] = {
+        [TONE_MAP_NONE] = "none",
+        [TONE_MAP_REINHARD] = "reinhard",
+        [TONE_MAP_ACES] = "aces",
+        [TONE_MAP_HABLE] = "hable",
+    };
+    static const char WITH_WHITE[] = "reinhard_extended,";
+    const size_t length = strlen(WITH_WHITE);
+    options->tone_map_given = true;
+    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++)
+        if (NAMES[i] && strcmp(value, NAMES[i]) == 0) {
+            options->tone_map = (ToneMap)i;
+            return NULL;
+        }
+    if (strncmp(value, WITH_WHITE, length) == 0 && read_real(value + length, &options->white) &&
+        options->white > 0) {
+        options->tone_map = TONE_MAP_REINHARD_EXTENDED;
+        return NULL;
+    }
+    return "none, reinhard, reinhard_extended,WHITE (above 0), aces or hable";
+}
+
+static const char *take_check(Options *options, const char *value)
+{
+    (void)value;
+    options->action = ACTION_CHECK;
+    return NULL;
+}
+
+static const char *take_stats(Options *options, const char *value)
+{
+    options->stats = true;
+    options->stats_file = value;
+    return value && !*value ? "a file's name" : NULL;
+}
+
+static const char *take_quiet(Options *options, const char *value)
+{
+    (void)value;
+    options->quiet = true;
+    return NULL;
+}
+
+static const char *take_verbose(Options *options, const char *value)
+{
+    (void)value;
+    options->verbose++;
+    return NULL;
+}
+
+static const char *take_help(Options *options, const char *value)
+{
+    (void)value;
+    options->action = ACTION_HELP;
+    return NULL;
+}
+
+static const char *take_version(Options *options, const char *value)
+{
+    (void)value;
+    options->action = ACTION_VERSION;
+    return NULL;
+}
+
+const Option OPTIONS[] = {
+    {'d', "device", VALUE_REQUIRED, "SPEC", GROUP_DEVICE,
+     "cpu, gpu, N or P:D of the list, or part of a name [$CLRT_DEVICE, else a GPU, else a CPU]", take_device},
+    {'l', "list-devices", VALUE_NONE, NULL, GROUP_DEVICE, "list the OpenCL devices", take_list_devices},
+    {0, "json", VALUE_NONE, NULL, GROUP_DEVICE, "with --list-devices: as JSON", take_json},
+    {0, "memory", VALUE_REQUIRED, "MIB", GROUP_DEVICE, "bound of device memory in MiB [the device's]",
+     take_memory},
+    {0, "threads", VALUE_REQUIRED, "N", GROUP_DEVICE,
+     "bound of the threads of a CPU device and of the host [all]", take_threads},
+    {'s', "size", VALUE_REQUIRED, "WxH", GROUP_IMAGE, "width and height in pixels", take_size},
+    {'n', "samples", VALUE_REQUIRED, "N", GROUP_IMAGE, "samples a pixel, 1 to 1048576", take_samples},
+    {0, "seed", VALUE_REQUIRED, "N", GROUP_IMAGE, "seed of all random choices", take_seed},
+    {0, "depth", VALUE_REQUIRED, "N", GROUP_IMAGE, "largest depth of a ray, 0 to 64", take_depth},
+    {0, "crop", VALUE_REQUIRED, "X,Y,W,H", GROUP_IMAGE, "only these pixels, as an image of W x H [all]",
+     take_crop},
+    {0, "bits", VALUE_REQUIRED, "8|16", GROUP_OUTPUT, "bits of a channel of a PNG [8]", take_bits},
+    {0, "exposure", VALUE_REQUIRED, "EV", GROUP_OUTPUT, "stops [the scene's]", take_exposure},
+    {0, "tone-map", VALUE_REQUIRED, "NAME", GROUP_OUTPUT,
+     "none, reinhard, reinhard_extended,WHITE, aces, hable [the scene's]", take_tone_map},
+    {0, "check", VALUE_NONE, NULL, GROUP_RUN, "read and check SCENE only; needs no device", take_check},
+    {0, "stats", VALUE_OPTIONAL, "FILE.json", GROUP_RUN, "times, rays and memory, on stderr or into the file",
+     take_stats},
+    {'q', "quiet", VALUE_NONE, NULL, GROUP_RUN, "errors only", take_quiet},
+    {'v', "verbose", VALUE_NONE, NULL, GROUP_RUN, "say what is done", take_verbose},
+    {'h', "help", VALUE_NONE, NULL, GROUP_RUN, "show this text", take_help},
+    {0, "version", VALUE_NONE, NULL, GROUP_RUN, "show the version", take_version},
+    {0, "math", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
+    {0, "error", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
+    {0, "confidence", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
+    {0, "time", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
+    {0, "aov", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
+    {0, "part", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
+    {0, "resume", VALUE_NONE, NULL, GROUP_LATER, NULL, NULL},
+    {0, "self-test", VALUE_NONE, NULL, GROUP_LATER, NULL, NULL},
+};
+
+const size_t OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0];

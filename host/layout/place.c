@@ -1,0 +1,273 @@
+#include "layout/place.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "layout/bake.h"
+
+enum { NESTING_MAX = 1000 };
+
+// Where a group is placed: space of the group -> render space, the material that its shapes inherit (-1:
+// none), its first place in the order of definition.
+typedef struct Placement {
+    Affine to_render;
+    i32 material;
+    u64 order;
+} Placement;
+
+static const Feature shape_features[PRIMITIVE_KIND_COUNT] = {
+    [PRIMITIVE_SPHERE] = FEATURE_SPHERE,
+    [PRIMITIVE_GIANT_SPHERE] = FEATURE_GIANT_SPHERE,
+    [PRIMITIVE_ELLIPSOID] = FEATURE_ELLIPSOID,
+    [PRIMITIVE_PLANE] = FEATURE_PLANE,
+    [PRIMITIVE_BOX] = FEATURE_BOX,
+    [PRIMITIVE_TETRAHEDRON] = FEATURE_TETRAHEDRON,
+    [PRIMITIVE_DISK] = FEATURE_DISK,
+    [PRIMITIVE_CYLINDER] = FEATURE_CYLINDER,
+    [PRIMITIVE_CONE] = FEATURE_CONE,
+    [PRIMITIVE_TORUS] = FEATURE_TORUS,
+    [PRIMITIVE_TRIANGLE] = FEATURE_TRIANGLE,
+};
+
+static bool transmits(const Material *material)
+{
+    return material->transmit.x > 0 || material->transmit.y > 0 || material->transmit.z > 0;
+}
+
+// Adds the place of what went wrong, unless memory did.
+static bool located(const Scene *scene, SourcePos at, Error *error)
+{
+    const Error reason = *error;
+    if (reason.code == ERROR_MEMORY)
+        return false;
+    return error_set(error, reason.code, "%s:%u:%u: error: %s", scene->files[at.file], at.line, at.column,
+                     reason.text);
+}
+
+static Vec3 carried_normal(const Affine *inverse, Vec3 n)
+{
+    const Vec3 unit = vec_normalize(n);
+    return vec_add(vec_add(vec_scale(inverse->row[0], unit.x), vec_scale(inverse->row[1], unit.y)),
+                   vec_scale(inverse->row[2], unit.z));
+}
+
+// Stores what a triangle's vertices bring along; *index is NO_INDEX where that is nothing.
+static bool add_extra(Placer *placer, const Shape *shape, const Affine *to_space, u32 *index, Error *error)
+{
+    *index = NO_INDEX;
+    if (shape->kind != SHAPE_TRIANGLE ||
+        !(shape->as.triangle.has_normals || (shape->as.triangle.has_uvs && placer->uv)))
+        return true;
+    if (placer->extra_count == placer->extra_capacity) {
+        const u32 capacity = placer->extra_capacity ? 2 * placer->extra_capacity : 16;
+        TriangleExtra *extras = realloc(placer->extras, capacity * sizeof *extras);
+        if (!extras)
+            return error_set(error, ERROR_MEMORY, "no memory for %u triangles", capacity);
+        placer->extras = extras;
+        placer->extra_capacity = capacity;
+    }
+    TriangleExtra *extra = &placer->extras[placer->extra_count];
+    memset(extra, 0, sizeof *extra);
+    extra->has_normals = shape->as.triangle.has_normals;
+    const Affine inverse = affine_inverse(*to_space);
+    f64 longest = 0;
+    Vec3 normals[3] = { { 0, 0, 0 } };
+    for (int k = 0; k < 3 && extra->has_normals; k++) {
+        normals[k] = carried_normal(&inverse, shape->as.triangle.normals[k]);
+        const f64 length = vec_length(normals[k]);
+        longest = length > longest ? length : longest;
+    }
+    for (int k = 0; k < 3; k++) {
+        // One common factor keeps the interpolation that of object space.
+        extra->normals[3 * k] = (f32)(longest > 0 ? normals[k].x / longest : 0);
+        extra->normals[3 * k + 1] = (f32)(longest > 0 ? normals[k].y / longest : 0);
+        extra->normals[3 * k + 2] = (f32)(longest > 0 ? normals[k].z / longest : 0);
+        // Without uvs of its own a triangle has the weights of its second and third vertex.
+        const bool own = shape->as.triangle.has_uvs;
+        extra->uvs[2 * k] = (f32)(own ? shape->as.triangle.uvs[k][0] : k == 1);
+        extra->uvs[2 * k + 1] = (f32)(own ? shape->as.triangle.uvs[k][1] : k == 2);
+    }
+    *index = placer->extra_count++;
+    placer->features |= feature_bit(FEATURE_TRIANGLE_EXTRA);
+    return true;
+}
+
+// Bakes shape into list (or the planes). material -1: inherited from the instance.
+static bool add_shape(Placer *placer, PrimitiveList *list, const Shape *shape, Affine to_space, i32 material,
+                      u64 order, Error *error)
+{
+    Primitive primitive;
+    BakedBounds bounds;
+    ObjectFrame frame;
+    PrimitiveInfo info = { material < 0 ? NO_INDEX : (u32)material, NO_INDEX, (u32)order, (u32)(order >> 32) };
+    const Affine total = affine_compose(to_space, shape->transform);
+    memset(&primitive, 0, sizeof primitive);
+    if (!bake_shape(shape, &total, &primitive, &bounds, error) ||
+        (placer->solid && !bake_object_frame(&total, &frame, error)) ||
+        !add_extra(placer, shape, &total, &info.extra, error))
+        return located(placer->scene, shape->at, error);
+    placer->features |= feature_bit(shape_features[primitive.kind]);
+    if (material >= 0) {
+        placer->material_used[material] = true;
+        if (!transmits(&placer->scene->materials[material]))
+            primitive.kind |= PRIMITIVE_OPAQUE;
+    }
+    return primitive_list_add(list, &primitive, info, placer->solid ? &frame : NULL,
+                              box_from_bounds(bounds.min, bounds.max), error);
+}
+
+// The shapes of an object, in its own space, once.
+static bool list_object(Placer *placer, u32 index, Error *error)
+{
+    const Scene *scene = placer->scene;
+    ObjectLayout *object = &placer->objects[index];
+    const Group *group = &scene->objects[index].group;
+    u64 order = 0;
+    object->list.with_frames = placer->solid;
+    for (u32 i = 0; i < group->count; i++) {
+        if (group->items[i].kind == ITEM_INSTANCE) {
+            order += placer->objects[scene->instances[group->items[i].index].object].order_size;
+            continue;
+        }
+        const Shape *shape = &scene->shapes[group->items[i].index];
+        if (shape->kind != SHAPE_PLANE &&
+            !add_shape(placer, &object->list, shape, affine_identity(), shape->material, order, error))
+            return false;
+        order++;
+    }
+    object->listed = true;
+    return true;
+}
+
+// The box of a placed box; what the map to the object's space, rounded to float, may be off by is added.
+static Box placed_box(const Box *local, const Affine *map)
+{
+    const f64 reach = 16 * FLT_EPSILON;
+    Vec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
+    for (int corner = 0; corner < 8; corner++) {
+        const Vec3 p = affine_point(*map, (Vec3){ corner & 1 ? local->max[0] : local->min[0],
+                                                  corner & 2 ? local->max[1] : local->min[1],
+                                                  corner & 4 ? local->max[2] : local->min[2] });
+        low = (Vec3){ fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z) };
+        high = (Vec3){ fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z) };
+    }
+    const Vec3 t = map->translation;
+    const f64 size = vec_length(vec_sub(high, low)) + vec_length(vec_sub(low, t));
+    const f64 pad = reach * (size + fmax(vec_length(low), vec_length(high)));
+    const Vec3 margin = { pad, pad, pad };
+    return box_from_bounds(vec_sub(low, margin), vec_add(high, margin));
+}
+
+// A placed object as one primitive of the top-level hierarchy.
+static bool add_instance(Placer *placer, u32 index, const Placement *placement, Error *error)
+{
+    if (!placer->objects[index].listed && !list_object(placer, index, error))
+        return false;
+    const Affine map = affine_inverse(placement->to_render);
+    const Vec3 c = placement->to_render.translation;
+    const Box local = primitive_list_bounds(&placer->objects[index].list);
+    Primitive primitive;
+    memset(&primitive, 0, sizeof primitive);
+    primitive.row0 = (f32x4){ (f32)map.row[0].x, (f32)map.row[0].y, (f32)map.row[0].z, (f32)c.x };
+    primitive.row1 = (f32x4){ (f32)map.row[1].x, (f32)map.row[1].y, (f32)map.row[1].z, (f32)c.y };
+    primitive.row2 = (f32x4){ (f32)map.row[2].x, (f32)map.row[2].y, (f32)map.row[2].z, (f32)c.z };
+    memcpy(&primitive.p0, &index, sizeof index);
+    primitive.kind = PRIMITIVE_INSTANCE;
+    const i32 material = placement->material < 0 ? 0 : placement->material;
+    const PrimitiveInfo info = { (u32)material, NO_INDEX, (u32)placement->order,
+                                 (u32)(placement->order >> 32) };
+    placer->features |= feature_bit(FEATURE_INSTANCES);
+    for (u32 i = 0; i < placer->objects[index].list.count; i++)
+        if (placer->objects[index].list.infos[i].material == NO_INDEX)
+            placer->material_used[material] = true;
+    return primitive_list_add(&placer->top, &primitive, info, NULL, placed_box(&local, &placement->to_render),
+                              error);
+}
+
+// Places the shapes and instances of a group. own_list: bounded shapes belong to the object's own list.
+static bool place_group(Placer *placer, const Group *group, Placement at, bool own_list, u32 depth,
+                        Error *error)
+{
+    const Scene *scene = placer->scene;
+    if (depth > NESTING_MAX)
+        return error_set(error, ERROR_SCENE, "objects are nested more than %d deep", NESTING_MAX);
+    for (u32 i = 0; i < group->count; i++) {
+        const Item item = group->items[i];
+        if (item.kind == ITEM_SHAPE) {
+            const Shape *shape = &scene->shapes[item.index];
+            const bool plane = shape->kind == SHAPE_PLANE;
+            const i32 inherited = at.material < 0 ? 0 : at.material;
+            if ((plane || !own_list) &&
+                !add_shape(placer, plane ? &placer->planes : &placer->top, shape, at.to_render,
+                           shape->material < 0 ? inherited : shape->material, at.order, error))
+                return false;
+            at.order++;
+        } else if (item.kind == ITEM_INSTANCE) {
+            const Instance *instance = &scene->instances[item.index];
+            ObjectLayout *object = &placer->objects[instance->object];
+            const Placement inner = { affine_compose(at.to_render, instance->transform),
+                                      instance->material < 0 ? at.material : instance->material, at.order };
+            const bool listed = object->bounded > 1;
+            if ((listed && !add_instance(placer, instance->object, &inner, error)) ||
+                !place_group(placer, &scene->objects[instance->object].group, inner, listed, depth + 1, error))
+                return false;
+            at.order += object->order_size;
+        }
+    }
+    return true;
+}
+
+// Sizes of the objects (each holds only objects defined before it), and what their textures need.
+static void measure(Placer *placer)
+{
+    const Scene *scene = placer->scene;
+    for (u32 i = 0; i < scene->object_count; i++) {
+        const Group *group = &scene->objects[i].group;
+        for (u32 k = 0; k < group->count; k++) {
+            if (group->items[k].kind == ITEM_INSTANCE) {
+                const Instance *instance = &scene->instances[group->items[k].index];
+                placer->objects[i].order_size += placer->objects[instance->object].order_size;
+            } else {
+                placer->objects[i].order_size++;
+                placer->objects[i].bounded += scene->shapes[group->items[k].index].kind != SHAPE_PLANE;
+            }
+        }
+    }
+    for (u32 i = 0; i < scene->material_count; i++) {
+        const i32 textures[2] = { scene->materials[i].diffuse.texture, scene->materials[i].ambient.texture };
+        for (int k = 0; k < 2; k++) {
+            if (textures[k] >= 0 && scene->textures[textures[k]].kind == TEXTURE_CHECKER3D)
+                placer->solid = true;
+            else if (textures[k] >= 0)
+                placer->uv = true;
+        }
+    }
+}
+
+bool placer_run(Placer *placer, const Scene *scene, Error *error)
+{
+    memset(placer, 0, sizeof *placer);
+    placer->scene = scene;
+    placer->objects = calloc(scene->object_count + 1, sizeof *placer->objects);
+    placer->material_used = calloc(scene->material_count + 1, sizeof *placer->material_used);
+    if (!placer->objects || !placer->material_used)
+        return error_set(error, ERROR_MEMORY, "no memory for %u objects", scene->object_count);
+    measure(placer);
+    placer->planes.with_frames = placer->top.with_frames = placer->solid;
+    const Placement world = { affine_translate(vec_scale(scene->camera.position, -1)), -1, 0 };
+    return place_group(placer, &scene->world, world, false, 0, error);
+}
+
+void placer_destroy(Placer *placer)
+{
+    for (u32 i = 0; placer->objects && i < placer->scene->object_count; i++)
+        primitive_list_destroy(&placer->objects[i].list);
+    primitive_list_destroy(&placer->planes);
+    primitive_list_destroy(&placer->top);
+    free(placer->objects);
+    free(placer->extras);
+    free(placer->material_used);
+    memset(placer, 0, sizeof *placer);
+}

@@ -1,0 +1,116 @@
+#include "layout/records.h"
+
+#include <math.h>
+#include <string.h>
+
+static const f64 pi = 3.14159265358979323846;
+
+static f32x4 f32x4_from(Vec3 v)
+{
+    return (f32x4){ (f32)v.x, (f32)v.y, (f32)v.z, 0 };
+}
+
+static void store3(f32 to[3], Vec3 v)
+{
+    to[0] = (f32)v.x;
+    to[1] = (f32)v.y;
+    to[2] = (f32)v.z;
+}
+
+// 1 - cos(half of an angle in degrees), without cancellation.
+static f64 versine_of_half(f64 degrees)
+{
+    const f64 s = sin(degrees * pi / 720);
+    return 2 * s * s;
+}
+
+LightRecord light_record(const Light *light, Vec3 camera)
+{
+    LightRecord record;
+    memset(&record, 0, sizeof record);
+    record.intensity = f32x4_from(light->intensity);
+    record.attenuation[0] = 1;
+    if (light->kind == LIGHT_DIRECTIONAL) {
+        record.kind = LIGHT_KIND_DIRECTIONAL;
+        record.direction = f32x4_from(vec_normalize(light->direction));
+        return record;
+    }
+    record.kind = LIGHT_KIND_POINT;
+    record.position = f32x4_from(vec_sub(light->position, camera));
+    for (int k = 0; k < 3; k++)
+        record.attenuation[k] = (f32)light->attenuation[k];
+    if (light->kind == LIGHT_SPOT) {
+        const f64 outer = versine_of_half(light->outer), inner = versine_of_half(light->inner);
+        record.kind = LIGHT_KIND_SPOT;
+        record.direction = f32x4_from(vec_normalize(vec_sub(light->look_at, light->position)));
+        record.versine_outer = (f32)outer;
+        record.inverse_range = outer > inner ? (f32)(1 / (outer - inner)) : 0;
+    }
+    return record;
+}
+
+MaterialRecord material_record(const Material *material, Vec3 ambient_light)
+{
+    MaterialRecord record;
+    memset(&record, 0, sizeof record);
+    const f64 ior = material->ior;
+    const Vec3 ka = material->ambient.texture >= 0 ? (Vec3){ 1, 1, 1 } : material->ambient.color;
+    store3(record.diffuse, material->diffuse.color);
+    store3(record.specular, material->specular);
+    store3(record.ambient,
+           (Vec3){ ka.x * ambient_light.x, ka.y * ambient_light.y, ka.z * ambient_light.z });
+    store3(record.reflect, material->reflect);
+    store3(record.transmit, material->transmit);
+    store3(record.emission, material->emission.color);
+    record.shininess = (f32)material->shininess;
+    record.ior = (f32)ior;
+    record.inverse_ior = (f32)(1 / ior);
+    // Of the numbers that the device multiplies with, so that near the critical angle nothing disagrees.
+    record.eta_in_rest = (f32)(1 - (f64)record.inverse_ior * record.inverse_ior);
+    record.eta_out_rest = (f32)(1 - (f64)record.ior * record.ior);
+    record.flags = (material->kind == MATERIAL_BLINN_PHONG ? MATERIAL_BLINN : 0) |
+                   (material->fresnel ? MATERIAL_FRESNEL : 0);
+    record.diffuse_texture = material->diffuse.texture;
+    record.ambient_texture = material->ambient.texture;
+    return record;
+}
+
+TextureRecord texture_record(const Texture *texture)
+{
+    TextureRecord record;
+    memset(&record, 0, sizeof record);
+    const bool solid = texture->kind == TEXTURE_CHECKER3D;
+    const f64 u = texture->scale[0], v = solid ? u : texture->scale[1];
+    store3(record.color_a, texture->colors[0]);
+    store3(record.color_b, texture->colors[1]);
+    record.scale_u = (f32)u;
+    record.scale_v = (f32)v;
+    record.scale_u_low = (f32)(u - record.scale_u);
+    record.scale_v_low = (f32)(v - record.scale_v);
+    record.inset = (f32)(1e-4 / u);
+    record.kind = solid ? TEXTURE_KIND_CHECKER3D : TEXTURE_KIND_CHECKER;
+    return record;
+}
+
+RenderParams camera_params(const Scene *scene)
+{
+    RenderParams params;
+    memset(&params, 0, sizeof params);
+    const Camera *camera = &scene->camera;
+    const Vec3 w = vec_normalize(vec_sub(camera->position, camera->look_at));
+    const Vec3 u = vec_normalize(vec_cross(vec_normalize(camera->up), w));
+    const f64 k = camera->orthographic ? camera->height / 2 : tan(camera->fov * pi / 360);
+    params.camera_right = f32x4_from(u);
+    params.camera_up = f32x4_from(vec_cross(w, u));
+    params.camera_back = f32x4_from(w);
+    params.background = f32x4_from(scene->background);
+    params.pixel_scale = (f32)(k / scene->image.height);
+    params.min_weight = (f32)scene->render.min_weight;
+    params.width = params.crop_width = scene->image.width;
+    params.height = params.crop_height = scene->image.height;
+    params.samples = scene->image.samples;
+    params.seed = scene->image.seed;
+    params.max_depth = scene->render.max_depth;
+    params.root = NO_INDEX;
+    return params;
+}

@@ -1,0 +1,209 @@
+#include "picture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "cli/progress.h"
+#include "cli/stats.h"
+#include "device/device.h"
+#include "layout/layout.h"
+#include "output/output.h"
+#include "render/render.h"
+#include "scene/parse.h"
+#include "scene/support.h"
+
+// What lives as long as the run.
+typedef struct Picture {
+    const Options *options;
+    Interrupt *interrupt;
+    u32 left, top, width, height; // the crop
+    Arena *arena;
+    Diagnostics *diagnostics;
+    DeviceList *devices;
+    u32 device_index; // the chosen one of them
+    Scene *scene;
+    Layout *layout;
+    Device *device;
+    Output *output;
+    f64 start; // seconds of a monotonic clock
+    RunStats stats;
+} Picture;
+
+static f64 seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (f64)now.tv_sec + (f64)now.tv_nsec * 1e-9;
+}
+
+static bool choose_device(Picture *picture, Error *error)
+{
+    const f64 start = seconds_now();
+    picture->devices = device_list_create(error);
+    picture->stats.device_seconds = seconds_now() - start;
+    if (!picture->devices)
+        return false;
+    const char *spec = picture->options->device, *environment = getenv("CLRT_DEVICE");
+    if (spec || !environment)
+        return device_choose(picture->devices, spec, &picture->device_index, error);
+    Error reason;
+    return device_choose(picture->devices, environment, &picture->device_index, &reason) ||
+           error_set(error, reason.code, "CLRT_DEVICE: %s", reason.text);
+}
+
+// Prints what there is to say about the scene; false where that is an error.
+static bool judge_scene(const Picture *picture, Error *error)
+{
+    const u32 errors = diagnostics_error_count(picture->diagnostics);
+    if (errors > 0 || !picture->options->quiet)
+        diagnostics_print(picture->diagnostics, stderr);
+    if (errors > 0)
+        return error_set(error, ERROR_SCENE, "%s: %u error%s", picture->options->scene, errors,
+                         errors > 1 ? "s" : "");
+    return true;
+}
+
+static bool load_scene(Picture *picture, Error *error)
+{
+    const Options *options = picture->options;
+    const f64 start = seconds_now();
+    picture->arena = arena_create();
+    picture->diagnostics = diagnostics_create();
+    if (!picture->arena || !picture->diagnostics)
+        return error_set(error, ERROR_MEMORY, "no memory for the scene");
+    picture->scene = scene_parse_file(options->scene, picture->arena, picture->diagnostics, error);
+    if (!picture->scene)
+        return false;
+    const bool sound = diagnostics_error_count(picture->diagnostics) == 0;
+    if (sound && !options_override(options, picture->scene, error))
+        return false;
+    if (sound)
+        scene_check_support(picture->scene, picture->diagnostics); // more samples may need what is not there
+    picture->stats.parse_seconds = seconds_now() - start;
+    return judge_scene(picture, error);
+}
+
+static bool lay_out(Picture *picture, Error *error)
+{
+    const f64 start = seconds_now();
+    picture->layout = layout_create(picture->scene, error);
+    picture->stats.layout_seconds = seconds_now() - start;
+    return picture->layout != NULL;
+}
+
+static bool open_device(Picture *picture, Error *error)
+{
+    const Options *options = picture->options;
+    const f64 start = seconds_now();
+    const DeviceOptions how = {.threads = options->threads, .profiling = options->stats};
+    picture->device = device_open(&picture->devices->devices[picture->device_index], &how, error);
+    picture->stats.device_seconds += seconds_now() - start;
+    if (picture->device && options->verbose)
+        fprintf(stderr, "clrt: device %s\n", device_info(picture->device)->name);
+    return picture->device != NULL;
+}
+
+static bool open_output(Picture *picture, Error *error)
+{
+    const Options *options = picture->options;
+    const ImageSettings *image = &picture->scene->image;
+    const OutputSettings *settings = &picture->scene->output;
+    picture->left = options->crop_given ? options->crop_x : 0;
+    picture->top = options->crop_given ? options->crop_y : 0;
+    picture->width = options->crop_given ? options->crop_width : image->width;
+    picture->height = options->crop_given ? options->crop_height : image->height;
+    if (!options->quiet && output_ignores_display_settings(options->out) &&
+        (settings->exposure_given || settings->tone_map_given || options->bits_given))
+        fprintf(stderr, "clrt: %s takes the radiance alone; exposure, tone map and bits have no effect\n",
+                options->out);
+    const OutputOptions format = {.settings = *settings, .bits = options->bits};
+    picture->output = output_open(options->out, &format, picture->width, picture->height, error);
+    if (picture->output)
+        interrupt_set_temporary(picture->interrupt, output_temporary_path(picture->output));
+    return picture->output != NULL;
+}
+
+static u64 ray_count(const RenderStats *stats)
+{
+    return stats->rays[0] + stats->rays[1] + stats->rays[2] + stats->rays[3];
+}
+
+static bool write_rows(const Picture *picture, Render *render, Error *error)
+{
+    Progress progress = progress_start(stderr, picture->options->quiet);
+    bool ok = true;
+    while (ok && !render_finished(render)) {
+        RenderRows rows;
+        ok = render_step(render, &rows, error) &&
+             (rows.count == 0 || output_write_rows(picture->output, rows.rgb, rows.count, error));
+        if (ok && interrupt_requested(picture->interrupt))
+            ok = error_set(error, ERROR_INTERRUPTED, "interrupted");
+        progress_update(&progress, render_progress(render), ray_count(render_stats(render)));
+    }
+    progress_end(&progress);
+    return ok;
+}
+
+static bool close_output(Picture *picture, Error *error)
+{
+    Output *output = picture->output;
+    picture->output = NULL;
+    const bool ok = output_commit(output, error);
+    interrupt_set_temporary(picture->interrupt, NULL);
+    return ok;
+}
+
+static bool report(Picture *picture, const Render *render, Error *error)
+{
+    RunStats *stats = &picture->stats;
+    if (!picture->options->stats)
+        return true;
+    stats->total_seconds = seconds_now() - picture->start;
+    stats->width = picture->width;
+    stats->height = picture->height;
+    stats->device_name = device_info(picture->device)->name;
+    stats->device_bytes_peak = device_bytes_peak(picture->device);
+    stats->render = render_stats(render);
+    stats->layout = picture->layout;
+    if (picture->options->stats_file)
+        return stats_write_json(stats, picture->options->stats_file, error);
+    stats_print(stats, stderr);
+    return true;
+}
+
+static bool render_picture(Picture *picture, Error *error)
+{
+    const RenderJob job = {
+        .layout = picture->layout,
+        .device = picture->device,
+        .left = picture->left,
+        .top = picture->top,
+        .width = picture->width,
+        .height = picture->height,
+        .memory_limit = picture->options->memory,
+    };
+    Render *render = render_create(&job, error);
+    const bool ok = render && write_rows(picture, render, error) && close_output(picture, error) &&
+                    report(picture, render, error);
+    render_destroy(render);
+    return ok;
+}
+
+bool picture_make(const Options *options, Interrupt *interrupt, Error *error)
+{
+    Picture picture = {.options = options, .interrupt = interrupt, .start = seconds_now()};
+    const bool check = options->action == ACTION_CHECK;
+    bool ok = (check || choose_device(&picture, error)) && load_scene(&picture, error);
+    if (ok && !check)
+        ok = open_output(&picture, error) && lay_out(&picture, error) && open_device(&picture, error) &&
+             render_picture(&picture, error);
+    output_abort(picture.output);
+    interrupt_set_temporary(interrupt, NULL);
+    device_close(picture.device);
+    layout_destroy(picture.layout);
+    device_list_destroy(picture.devices);
+    diagnostics_destroy(picture.diagnostics);
+    arena_destroy(picture.arena);
+    return ok;
+}

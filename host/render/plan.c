@@ -1,0 +1,107 @@
+#include "render/plan.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    GROUPS_A_UNIT_CPU = 8,        // enough to balance, few enough to stay in the caches
+    GROUPS_GPU = 4096,
+    GROUP_GPU = 64,
+    BATCH_CPU = 32,
+    BAND_PIXELS = 1 << 20,        // a band's film stays near the cache, a band keeps every core busy
+    FIRST_PIXEL_SAMPLES = 2 << 20
+};
+
+DeviceShape plan_device_shape(const DeviceInfo *info)
+{
+    DeviceShape shape = { 1, 1, GROUP_GPU };
+    if (info->type == DEVICE_CPU) {
+        shape.lanes = info->float_width >= 16 ? 16 : info->float_width >= 8 ? 8 : 4;
+        shape.batch = BATCH_CPU;
+        shape.group = 1;
+    }
+    const char *wish = getenv("CLRT_SHAPE");
+    DeviceShape asked;
+    if (wish && sscanf(wish, "%u,%u,%u", &asked.lanes, &asked.batch, &asked.group) == 3 && asked.group >= 1 &&
+        asked.group <= TILE_PIXELS && asked.batch <= BATCH_CPU && asked.lanes >= 1 &&
+        asked.batch % asked.lanes == 0)
+        shape = asked;
+    return shape;
+}
+
+u32 plan_tiles(const Plan *plan, u32 rows)
+{
+    return (plan->width + TILE_WIDTH - 1) / TILE_WIDTH * ((rows + TILE_HEIGHT - 1) / TILE_HEIGHT);
+}
+
+u64 plan_state_bytes(const Plan *plan, u32 groups)
+{
+    return (u64)groups * (plan->real_fields + plan->int_fields) * TILE_PIXELS * 4 +
+           (u64)groups * plan->shape.group * RAYS_KINDS * 4;
+}
+
+u64 plan_film_bytes(const Plan *plan, u32 rows)
+{
+    return (u64)plan->width * rows * 12 * (plan->samples ? 2 : 1);
+}
+
+u32 plan_first_samples(const Plan *plan)
+{
+    const u64 samples = FIRST_PIXEL_SAMPLES / ((u64)plan->width * plan->band_rows);
+    return samples < 1 ? 1 : samples > 64 ? 64 : (u32)samples;
+}
+
+static u64 scene_bytes(const Layout *layout)
+{
+    return sizeof(RenderParams) + layout->primitive_count * (u64)sizeof(Primitive) +
+           layout->primitive_count * (u64)sizeof(PrimitiveInfo) +
+           (layout->frames ? layout->primitive_count * (u64)sizeof(ObjectFrame) : 0) +
+           layout->node_count * (u64)sizeof(BvhNode) + layout->extra_count * (u64)sizeof(TriangleExtra) +
+           layout->material_count * (u64)sizeof(MaterialRecord) +
+           layout->texture_count * (u64)sizeof(TextureRecord) +
+           layout->light_count * (u64)sizeof(LightRecord);
+}
+
+static void count_fields(Plan *plan, const Layout *layout)
+{
+    const FeatureSet set = layout->features;
+    const u32 shadows = features_have(set, FEATURE_SHADOWS), samples = features_have(set, FEATURE_SAMPLES);
+    const u32 instances = features_have(set, FEATURE_INSTANCES);
+    const u32 branching = features_have(set, FEATURE_BRANCHING), pending = layout->params.pending_depth;
+    const u32 lights = layout->light_count;
+    plan->lights_per_pass = lights < LIGHTS_PER_PASS_MAX ? lights : LIGHTS_PER_PASS_MAX;
+    plan->samples = samples;
+    plan->pending_reals = STATE_REALS(samples, shadows, plan->lights_per_pass);
+    plan->real_fields = plan->pending_reals + pending * PENDING_REALS;
+    plan->int_fields = STATE_INTS(shadows, branching, instances) + pending * PENDING_INTS(instances);
+}
+
+bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, u32 width, u32 height,
+               u64 memory_limit, Error *error)
+{
+    memset(plan, 0, sizeof *plan);
+    plan->shape = plan_device_shape(info);
+    plan->width = width;
+    count_fields(plan, layout);
+    const u64 scene = scene_bytes(layout);
+    const u64 limit = memory_limit && memory_limit < info->memory ? memory_limit : info->memory;
+    const u64 least = scene + plan_state_bytes(plan, 1) + plan_film_bytes(plan, TILE_HEIGHT);
+    if (least > limit)
+        return error_set(error, ERROR_MEMORY,
+                         "the scene and one row of tiles need %llu MiB on the device, more than the limit of "
+                         "%llu MiB",
+                         (unsigned long long)((least >> 20) + 1), (unsigned long long)(limit >> 20));
+    // Half of what is left for the tiles, the rest for the film.
+    const u64 free_bytes = limit - least;
+    const u64 tile = plan_state_bytes(plan, 1), strip = plan_film_bytes(plan, TILE_HEIGHT);
+    const u32 wanted = info->type == DEVICE_CPU ? info->compute_units * GROUPS_A_UNIT_CPU : GROUPS_GPU;
+    const u64 strips_wanted = BAND_PIXELS / ((u64)width * TILE_HEIGHT) + 1;
+    const u64 groups = 1 + free_bytes / 2 / tile, strips = 1 + free_bytes / 2 / strip;
+    plan->groups = groups < wanted ? (u32)groups : wanted;
+    const u64 rows = (strips < strips_wanted ? strips : strips_wanted) * TILE_HEIGHT;
+    plan->band_rows = rows < height ? (u32)rows : height;
+    const u32 tiles = plan_tiles(plan, plan->band_rows);
+    plan->groups = plan->groups < tiles ? plan->groups : tiles;
+    return true;
+}

@@ -1,0 +1,260 @@
+#include "render/render.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "bundle/bundle.h"
+#include "device/buffer.h"
+#include "device/program.h"
+#include "render/plan.h"
+
+// Device arrays of the scene; those that it does not need are NULL.
+enum { SCENE_BUFFERS = 9 };
+
+struct Render {
+    RenderJob job;
+    Plan plan;
+    RenderParams params;
+    Program *program;
+    Kernel *kernel;
+    Buffer *scene[SCENE_BUFFERS];
+    Buffer *state_reals, *state_ints, *film, *film_low, *ray_counts;
+    f32 *rows;
+    u32 *counts;
+    u32 band_top;         // rows of the crop that are complete
+    u32 samples_done;     // of the band in hand
+    u32 samples_a_launch; // adapted to the time that launches take
+    RenderStats stats;
+};
+
+static f64 seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (f64)now.tv_sec + 1e-9 * (f64)now.tv_nsec;
+}
+
+size_t render_program_options(FeatureSet features, const DeviceInfo *info, char *text, size_t size)
+{
+    const DeviceShape shape = plan_device_shape(info);
+    const int head =
+        snprintf(text, size, "%s-w -DLANES=%u -DBATCH=%u -DGROUP=%u",
+                 info->exact_divide ? "-cl-fp32-correctly-rounded-divide-sqrt " : "", shape.lanes, shape.batch,
+                 shape.group);
+    const size_t used = (size_t)head;
+    return used + features_options(features, used < size ? text + used : NULL, used < size ? size - used : 0);
+}
+
+// Puts an array of the scene on the device and binds it, where the kernel wants it.
+static bool add_scene_buffer(Render *render, u32 slot, const char *name, const void *data, u64 bytes,
+                             Error *error)
+{
+    if (!kernel_has(render->kernel, name))
+        return true;
+    Buffer *buffer = buffer_create(render->job.device, name, bytes, error);
+    render->scene[slot] = buffer;
+    render->stats.scene_bytes += bytes;
+    return buffer && (bytes == 0 || buffer_upload(buffer, 0, data, bytes, error)) &&
+           kernel_set_buffer(render->kernel, name, buffer, error);
+}
+
+static bool add_scene(Render *render, Error *error)
+{
+    const Layout *l = render->job.layout;
+    return add_scene_buffer(render, 0, "params", &render->params, sizeof render->params, error) &&
+           add_scene_buffer(render, 1, "primitives", l->primitives,
+                            l->primitive_count * sizeof *l->primitives, error) &&
+           add_scene_buffer(render, 2, "infos", l->infos, l->primitive_count * sizeof *l->infos, error) &&
+           add_scene_buffer(render, 3, "frames", l->frames, l->primitive_count * sizeof *l->frames, error) &&
+           add_scene_buffer(render, 4, "nodes", l->nodes, l->node_count * sizeof *l->nodes, error) &&
+           add_scene_buffer(render, 5, "materials", l->materials, l->material_count * sizeof *l->materials,
+                            error) &&
+           add_scene_buffer(render, 6, "textures", l->textures, l->texture_count * sizeof *l->textures,
+                            error) &&
+           add_scene_buffer(render, 7, "extras", l->extras, l->extra_count * sizeof *l->extras, error) &&
+           add_scene_buffer(render, 8, "lights", l->lights, l->light_count * sizeof *l->lights, error);
+}
+
+// A buffer of the render itself, bound to the argument of the same name.
+static bool add_buffer(Render *render, Buffer **buffer, const char *name, u64 bytes, Error *error)
+{
+    if (!kernel_has(render->kernel, name))
+        return true;
+    *buffer = buffer_create(render->job.device, name, bytes, error);
+    return *buffer && kernel_set_buffer(render->kernel, name, *buffer, error);
+}
+
+static bool add_work_buffers(Render *render, Error *error)
+{
+    const Plan *plan = &render->plan;
+    const u64 items = (u64)plan->groups * plan->shape.group;
+    render->stats.state_bytes = plan_state_bytes(plan, plan->groups);
+    render->stats.film_bytes = plan_film_bytes(plan, plan->band_rows);
+    render->stats.band_rows = plan->band_rows;
+    render->stats.groups = plan->groups;
+    const u64 film = (u64)plan->band_rows * plan->width * 3 * sizeof(f32);
+    const u64 field = TILE_PIXELS * 4;
+    render->rows = malloc(film);
+    render->counts = malloc(items * RAYS_KINDS * sizeof *render->counts);
+    if (!render->rows || !render->counts)
+        return error_set(error, ERROR_MEMORY, "no memory for %u rows", plan->band_rows);
+    Kernel *kernel = render->kernel;
+    return add_buffer(render, &render->state_reals, "state_reals", plan->groups * plan->real_fields * field,
+                      error) &&
+           add_buffer(render, &render->state_ints, "state_ints", plan->groups * plan->int_fields * field,
+                      error) &&
+           add_buffer(render, &render->film, "film", film, error) &&
+           add_buffer(render, &render->film_low, "film_low", film, error) &&
+           add_buffer(render, &render->ray_counts, "ray_counts",
+                      items * RAYS_KINDS * sizeof *render->counts, error) &&
+           kernel_set_u32(kernel, "state_real_fields", plan->real_fields, error) &&
+           kernel_set_u32(kernel, "state_int_fields", plan->int_fields, error) &&
+           kernel_set_u32(kernel, "pending_reals", plan->pending_reals, error);
+}
+
+static void set_params(Render *render)
+{
+    const RenderJob *job = &render->job;
+    render->params = job->layout->params;
+    render->params.left = job->left;
+    render->params.top = job->top;
+    render->params.crop_width = job->width;
+    render->params.crop_height = job->height;
+    render->params.lights_per_pass = render->plan.lights_per_pass;
+}
+
+static bool build(Render *render, Error *error)
+{
+    const RenderJob *job = &render->job;
+    char options[2048];
+    if (render_program_options(job->layout->features, device_info(job->device), options, sizeof options) >=
+        sizeof options)
+        return error_set(error, ERROR_DEVICE, "the options of the program are too long");
+    const f64 start = seconds_now();
+    render->program =
+        program_create(job->device, clrt_kernel_source, clrt_kernel_source_size, options, error);
+    render->kernel = render->program ? kernel_create(render->program, "render_tiles", error) : NULL;
+    render->stats.compile_seconds = seconds_now() - start;
+    return render->kernel != NULL;
+}
+
+Render *render_create(const RenderJob *job, Error *error)
+{
+    Render *render = calloc(1, sizeof *render);
+    if (!render) {
+        error_set(error, ERROR_MEMORY, "no memory for the render");
+        return NULL;
+    }
+    render->job = *job;
+    bool ok = plan_make(&render->plan, job->layout, device_info(job->device), job->width, job->height,
+                        job->memory_limit, error);
+    if (ok) {
+        set_params(render);
+        render->samples_a_launch = plan_first_samples(&render->plan);
+        ok = build(render, error) && add_scene(render, error) && add_work_buffers(render, error);
+    }
+    if (!ok) {
+        render_destroy(render);
+        return NULL;
+    }
+    return render;
+}
+
+void render_destroy(Render *render)
+{
+    if (!render)
+        return;
+    for (u32 i = 0; i < SCENE_BUFFERS; i++)
+        buffer_destroy(render->scene[i]);
+    buffer_destroy(render->state_reals);
+    buffer_destroy(render->state_ints);
+    buffer_destroy(render->film);
+    buffer_destroy(render->film_low);
+    buffer_destroy(render->ray_counts);
+    kernel_destroy(render->kernel);
+    program_destroy(render->program);
+    free(render->rows);
+    free(render->counts);
+    free(render);
+}
+
+static u32 band_rows_now(const Render *render)
+{
+    const u32 left = render->job.height - render->band_top;
+    return left < render->plan.band_rows ? left : render->plan.band_rows;
+}
+
+static bool launch(Render *render, u32 rows, u32 sample_end, Error *error)
+{
+    const Plan *plan = &render->plan;
+    const u32 tiles = plan_tiles(plan, rows);
+    const u32 groups = tiles < plan->groups ? tiles : plan->groups;
+    const u64 items = (u64)groups * plan->shape.group;
+    Kernel *kernel = render->kernel;
+    if (!kernel_set_u32(kernel, "band_top", render->band_top, error) ||
+        !kernel_set_u32(kernel, "band_rows", rows, error) ||
+        !kernel_set_u32(kernel, "sample_begin", render->samples_done, error) ||
+        !kernel_set_u32(kernel, "sample_end", sample_end, error) ||
+        !kernel_launch(kernel, items, plan->shape.group, error) ||
+        !buffer_download(render->ray_counts, 0, render->counts, items * RAYS_KINDS * sizeof *render->counts,
+                         error))
+        return false;
+    for (u64 i = 0; i < items * RAYS_KINDS; i++)
+        render->stats.rays[i % RAYS_KINDS] += render->counts[i];
+    return true;
+}
+
+// Aims at launches of a fifth of a second: short enough to stop between them, long enough to fill the device.
+static void adapt_launch(Render *render, u32 samples, f64 seconds)
+{
+    const f64 wanted = 0.2 * samples / (seconds > 1e-6 ? seconds : 1e-6);
+    const f64 most = 4.0 * samples;
+    const f64 next = wanted < most ? wanted : most;
+    render->samples_a_launch = next < 1 ? 1 : next > 1e6 ? 1000000 : (u32)next;
+}
+
+bool render_step(Render *render, RenderRows *rows, Error *error)
+{
+    const u32 band = band_rows_now(render), samples = render->params.samples;
+    const u32 left = samples - render->samples_done;
+    const u32 now = left < render->samples_a_launch ? left : render->samples_a_launch;
+    *rows = (RenderRows){ NULL, 0 };
+    if (render_finished(render))
+        return true;
+    const f64 start = seconds_now();
+    if (!launch(render, band, render->samples_done + now, error))
+        return false;
+    const f64 seconds = seconds_now() - start;
+    render->stats.launches++;
+    render->stats.trace_seconds += seconds;
+    adapt_launch(render, now, seconds);
+    render->samples_done += now;
+    if (render->samples_done < samples)
+        return true;
+    if (!buffer_download(render->film, 0, render->rows, (u64)band * render->plan.width * 3 * sizeof(f32),
+                         error))
+        return false;
+    *rows = (RenderRows){ render->rows, band };
+    render->band_top += band;
+    render->samples_done = 0;
+    return true;
+}
+
+bool render_finished(const Render *render)
+{
+    return render->band_top >= render->job.height;
+}
+
+f64 render_progress(const Render *render)
+{
+    const f64 band = render_finished(render) ? 0 : band_rows_now(render);
+    const f64 share = (f64)render->samples_done / render->params.samples;
+    return (render->band_top + band * share) / render->job.height;
+}
+
+const RenderStats *render_stats(const Render *render)
+{
+    return &render->stats;
+}

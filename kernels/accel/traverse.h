@@ -1,0 +1,198 @@
+// The walk of a batch through one hierarchy, and through instances to a second one.
+#ifndef CLRT_KERNELS_ACCEL_TRAVERSE_H
+#define CLRT_KERNELS_ACCEL_TRAVERSE_H
+
+// Depth of the hierarchy times the siblings that a level can leave behind.
+#define STACK_SIZE (BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1)
+
+typedef union { int8 v; int s[8]; } Int8;
+typedef union { float8 v; float s[8]; } Float8;
+
+// Numbers of a ray for the box test: reciprocal direction and, as offsets in floats into a node, the planes
+// that the ray meets first.
+typedef struct {
+    real inv_x[BATCH], inv_y[BATCH], inv_z[BATCH];
+    int near_x[BATCH], near_y[BATCH], near_z[BATCH];
+} BatchSlabs;
+
+typedef struct {
+    int node[STACK_SIZE];
+    uint mask[STACK_SIZE];
+    float near[STACK_SIZE];
+    int size;
+} Stack;
+
+static inline uint sign_bits8(int8 m)
+{
+#if defined(__AVX__) && defined(__has_builtin)
+    return (uint)__builtin_ia32_movmskps256(as_float8(m));
+#else
+    // Bytes 0 or 255, gathered by a multiplication that moves bit 7k to bit 56 + k.
+    const ulong bytes = as_ulong(convert_char8(m)) & 0x0101010101010101UL;
+    return (uint)(bytes * 0x0102040810204080UL >> 56);
+#endif
+}
+
+static inline void prepare_slabs(const BatchRays *rays, BatchSlabs *slabs)
+{
+    for (int first = 0; first < BATCH; first += LANES) {
+        const vf x = (vf)(1.0f) / VF_LOAD(&rays->dir_x[first]);
+        const vf y = (vf)(1.0f) / VF_LOAD(&rays->dir_y[first]);
+        const vf z = (vf)(1.0f) / VF_LOAD(&rays->dir_z[first]);
+        VF_STORE(x, &slabs->inv_x[first]);
+        VF_STORE(y, &slabs->inv_y[first]);
+        VF_STORE(z, &slabs->inv_z[first]);
+        VI_STORE(x < (vf)(0.0f) ? (vi)(24) : (vi)(0), &slabs->near_x[first]);
+        VI_STORE(y < (vf)(0.0f) ? (vi)(32) : (vi)(8), &slabs->near_y[first]);
+        VI_STORE(z < (vf)(0.0f) ? (vi)(40) : (vi)(16), &slabs->near_z[first]);
+    }
+}
+
+// Tests the children of a node for the rays of mask and pushes those that are hit, nearest on top.
+// A NaN (a plane through the origin of a ray that runs within it) leaves its slab open on that side.
+static inline void push_children(global const BvhNode *node, const BatchRays *rays, const BatchSlabs *slabs,
+                                 const BatchHits *hits, uint mask, Stack *stack)
+{
+    global const float *planes = node->lower_x;
+    Int8 child_mask;
+    Float8 child_near;
+    child_mask.v = (int8)(0);
+    child_near.v = (float8)(INFINITY);
+    for (uint rest = mask; rest; rest &= rest - 1) {
+        const int k = lowest_bit(rest);
+        const int x = slabs->near_x[k], y = slabs->near_y[k], z = slabs->near_z[k];
+        const float8 near_x = (vload8(0, planes + x) - rays->org_x[k]) * slabs->inv_x[k];
+        const float8 near_y = (vload8(0, planes + y) - rays->org_y[k]) * slabs->inv_y[k];
+        const float8 near_z = (vload8(0, planes + z) - rays->org_z[k]) * slabs->inv_z[k];
+        const float8 far_x = (vload8(0, planes + 24 - x) - rays->org_x[k]) * slabs->inv_x[k];
+        const float8 far_y = (vload8(0, planes + 40 - y) - rays->org_y[k]) * slabs->inv_y[k];
+        const float8 far_z = (vload8(0, planes + 56 - z) - rays->org_z[k]) * slabs->inv_z[k];
+        float8 tnear = (float8)(0.0f), tfar = (float8)(hits->tfar[k]);
+        tnear = near_x > tnear ? near_x : tnear;
+        tnear = near_y > tnear ? near_y : tnear;
+        tnear = near_z > tnear ? near_z : tnear;
+        tfar = far_x < tfar ? far_x : tfar;
+        tfar = far_y < tfar ? far_y : tfar;
+        tfar = far_z < tfar ? far_z : tfar;
+        const int8 hit = tnear <= tfar * BOX_SLACK;
+        child_mask.v |= hit & (int8)((int)(1u << k));
+        const float8 seen = hit ? tnear : (float8)(INFINITY);
+        child_near.v = seen < child_near.v ? seen : child_near.v;
+    }
+    const int bottom = stack->size;
+    for (uint rest = sign_bits8(child_mask.v != (int8)(0)); rest; rest &= rest - 1) {
+        const int slot = lowest_bit(rest);
+        const float near = child_near.s[slot];
+        int at = stack->size++;
+        for (; at > bottom && stack->near[at - 1] < near; at--) {
+            stack->node[at] = stack->node[at - 1];
+            stack->mask[at] = stack->mask[at - 1];
+            stack->near[at] = stack->near[at - 1];
+        }
+        stack->node[at] = node->child[slot];
+        stack->mask[at] = (uint)child_mask.s[slot];
+        stack->near[at] = near;
+    }
+}
+
+// Walks the hierarchy of one object, or of the whole scene where nothing is instanced.
+static inline uint traverse_object(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+                                   int root, int instance, const bool any_hit, const bool opaque_only)
+{
+    BatchSlabs slabs;
+    Stack stack;
+    uint alive = mask;
+    prepare_slabs(rays, &slabs);
+    stack.size = 0;
+    push_children(&scene->nodes[root], rays, &slabs, hits, mask, &stack);
+    while (stack.size > 0) {
+        const int node = stack.node[--stack.size];
+        const uint wanted = stack.mask[stack.size] & alive;
+        if (!wanted)
+            continue;
+        if (node >= 0) {
+            push_children(&scene->nodes[node], rays, &slabs, hits, wanted, &stack);
+            continue;
+        }
+        const uint leaf = ~(uint)node;
+        for (uint i = leaf >> 4; i < (leaf >> 4) + (leaf & 15u); i++) {
+            if (opaque_only && !(scene->primitives[i].kind & PRIMITIVE_OPAQUE))
+                continue;
+            const uint found = test_primitive(scene, rays, hits, wanted & alive, (int)i, instance);
+            if (any_hit)
+                alive &= ~found;
+        }
+    }
+    return mask & ~alive;
+}
+
+#if HAS_INSTANCES
+// Rays of mask in the object space of the instance; t is the same number in both spaces.
+static inline void enter_instance(const PrimitiveLanes *p, const BatchRays *rays, uint mask, BatchRays *local)
+{
+    for (int first = 0; first < BATCH; first += LANES) {
+        if (!(mask >> first & ((1u << LANES) - 1u)))
+            continue;
+        const v3 org = v3_make(VF_LOAD(&rays->org_x[first]), VF_LOAD(&rays->org_y[first]),
+                               VF_LOAD(&rays->org_z[first]));
+        const v3 dir = v3_make(VF_LOAD(&rays->dir_x[first]), VF_LOAD(&rays->dir_y[first]),
+                               VF_LOAD(&rays->dir_z[first]));
+        const v3 from = v3_sub(org, p->c);
+        VF_STORE(v3_dot(p->row0, from), &local->org_x[first]);
+        VF_STORE(v3_dot(p->row1, from), &local->org_y[first]);
+        VF_STORE(v3_dot(p->row2, from), &local->org_z[first]);
+        VF_STORE(v3_dot(p->row0, dir), &local->dir_x[first]);
+        VF_STORE(v3_dot(p->row1, dir), &local->dir_y[first]);
+        VF_STORE(v3_dot(p->row2, dir), &local->dir_z[first]);
+    }
+}
+
+// The top-level hierarchy, whose leaves hold primitives and instances of objects.
+static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+                                  const bool any_hit, const bool opaque_only)
+{
+    BatchSlabs slabs;
+    BatchRays local;
+    Stack stack;
+    uint alive = mask;
+    prepare_slabs(rays, &slabs);
+    stack.size = 0;
+    push_children(&scene->nodes[scene->root], rays, &slabs, hits, mask, &stack);
+    while (stack.size > 0) {
+        const int node = stack.node[--stack.size];
+        const uint wanted = stack.mask[stack.size] & alive;
+        if (!wanted)
+            continue;
+        if (node >= 0) {
+            push_children(&scene->nodes[node], rays, &slabs, hits, wanted, &stack);
+            continue;
+        }
+        const uint leaf = ~(uint)node;
+        for (uint i = leaf >> 4; i < (leaf >> 4) + (leaf & 15u); i++) {
+            global const Primitive *p = &scene->primitives[i];
+            const uint left = wanted & alive;
+            uint found = 0;
+            if (!left)
+                break;
+            if ((p->kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE) {
+                const PrimitiveLanes map = primitive_splat(p);
+                enter_instance(&map, rays, left, &local);
+                found = traverse_object(scene, &local, hits, left, as_int(p->p0), (int)i, any_hit,
+                                        opaque_only);
+            } else if (!opaque_only || (p->kind & PRIMITIVE_OPAQUE)) {
+                found = test_primitive(scene, rays, hits, left, (int)i, NO_HIT);
+            }
+            if (any_hit)
+                alive &= ~found;
+        }
+    }
+}
+#else
+static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+                                  const bool any_hit, const bool opaque_only)
+{
+    traverse_object(scene, rays, hits, mask, (int)scene->root, NO_HIT, any_hit, opaque_only);
+}
+#endif
+
+#endif

@@ -1,0 +1,68 @@
+// Specular highlights, and what a smooth boundary reflects and transmits.
+#ifndef CLRT_KERNELS_MATERIAL_LOBES_H
+#define CLRT_KERNELS_MATERIAL_LOBES_H
+
+#include "base/math.h"
+#include "base/vec.h"
+
+// Reflected direction, D - 2 (D.N) N.
+static inline v3 reflect_about(v3 dir, v3 normal)
+{
+    return v3_fma(normal, -2.0f * v3_dot(dir, normal), dir);
+}
+
+#if HAS_SPECULAR
+// cosine^exponent for a cosine that rounding may have left outside [0, 1]; 0^0 = 1.
+static inline vf lobe_power(vf cosine, vf exponent)
+{
+    return vf_pow(vf_clamp(cosine, 0.0f, 1.0f), exponent);
+}
+
+// max(0, R.V)^n with R the mirrored light direction.
+static inline vf lobe_phong(v3 normal, v3 to_light, v3 to_eye, vf exponent)
+{
+    return lobe_power(-v3_dot(reflect_about(to_light, normal), to_eye), exponent);
+}
+
+#if HAS_BLINN
+// max(0, N.H)^n with H half-way between light and eye.
+static inline vf lobe_blinn(v3 normal, v3 to_light, v3 to_eye, vf exponent)
+{
+    const v3 sum = v3_add(to_light, to_eye);
+    const vf squared = v3_dot(sum, sum);
+    const vf inverse = (vf)(1.0f) / sqrt(squared > (vf)(0.0f) ? squared : (vf)(1.0f));
+    return lobe_power(v3_dot(normal, sum) * inverse, exponent);
+}
+#endif
+#endif
+
+#if HAS_TRANSMIT || HAS_FRESNEL
+// Snell's law at one boundary. eta: index before over index behind; rest = 1 - eta^2 rounded once, so that
+// the verdict on total reflection near the critical angle is that of exact arithmetic within an ulp.
+typedef struct {
+    vf cos_in, cos_out;
+    vm total; // total internal reflection; cos_out is 0
+} Refraction;
+
+static inline Refraction refract_cosines(vf cos_in, vf eta, vf rest)
+{
+    Refraction r;
+    const vf scaled = eta * cos_in;
+    const vf squared = fma(scaled, scaled, rest);
+    r.cos_in = cos_in;
+    r.total = squared < (vf)(0.0f);
+    r.cos_out = sqrt(vf_max(squared, (vf)(0.0f)));
+    return r;
+}
+
+// Reflectance of a dielectric for unpolarised light (Fresnel; Born and Wolf, Principles of Optics, 1.5.2).
+static inline vf fresnel_dielectric(const Refraction *r, vf eta)
+{
+    const vf s_in = eta * r->cos_in, p_out = eta * r->cos_out;
+    const vf s = (s_in - r->cos_out) / (s_in + r->cos_out);
+    const vf p = (p_out - r->cos_in) / (p_out + r->cos_in);
+    return r->total ? (vf)(1.0f) : 0.5f * fma(s, s, p * p);
+}
+#endif
+
+#endif

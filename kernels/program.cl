@@ -1,0 +1,2 @@
+// The whole program: host code defines HAS_X for every feature of shared/features.def, LANES, BATCH and GROUP.
+#include "stages/render.cl"

@@ -1,0 +1,123 @@
+// What the intersections of the shapes have in common: quadratics, intervals of solids, choice of the root.
+//
+// A solid is the interval [near, far] of t that the ray spends in it; (INFINITY, -INFINITY) where it never
+// does. Roots do not depend on RayLanes.tmin, so that the roots of one ray are the same numbers whatever
+// tmin they are asked with. Whatever is NaN is no hit.
+#ifndef CLRT_KERNELS_SHAPES_ROOTS_H
+#define CLRT_KERNELS_SHAPES_ROOTS_H
+
+#include "base/ray.h"
+#include "shapes/surface.h"
+
+typedef struct {
+    vf near, far;
+} Interval;
+
+static inline Interval interval_select(vm m, Interval a, Interval b)
+{
+    Interval r;
+    r.near = m ? a.near : b.near;
+    r.far = m ? a.far : b.far;
+    return r;
+}
+
+static inline Interval interval_make(vf near, vf far)
+{
+    Interval r;
+    r.near = near;
+    r.far = far;
+    return r;
+}
+
+static inline Interval interval_none(void) { return interval_make((vf)(INFINITY), (vf)(-INFINITY)); }
+static inline Interval interval_all(void) { return interval_make((vf)(-INFINITY), (vf)(INFINITY)); }
+
+static inline Interval interval_common(Interval a, Interval b)
+{
+    return interval_make(vf_max(a.near, b.near), vf_min(a.far, b.far));
+}
+
+// Roots of a t^2 + 2 b t + c = 0 in order; none where they are not real. a must not be 0. The discriminant
+// is a difference of products without cancellation error, and neither root is a difference of like numbers
+// (Goldberg, "What every computer scientist should know about floating-point arithmetic", 1991).
+static inline Interval quadratic_roots(vf a, vf b, vf c)
+{
+    const vf discriminant = difference_of_products(b, b, a, c);
+    const vf q = -(b + copysign(sqrt(discriminant), b));
+    const vf t0 = q == (vf)(0.0f) ? (vf)(0.0f) : c / q;
+    const vf t1 = q / a;
+    return interval_select(discriminant >= (vf)(0.0f), interval_make(vf_min(t0, t1), vf_max(t0, t1)),
+                           interval_none());
+}
+
+// Rays that start far from a solid (|*o|^2 >= far2, o relative to its centre) are moved to the point closest
+// to the centre, since there the squares of distances no longer cancel (Haines, Guenther, Akenine-Moeller,
+// "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019). fma rounds the moved origin
+// once, so that the ray stays the same ray. Returns the t of the new origin; dd = |d|^2.
+static inline vf closest_shift(v3 *o, v3 d, vf dd, vf far2)
+{
+    const vm far = v3_dot(*o, *o) >= far2;
+    const vf t = far ? -v3_dot(*o, d) / dd : (vf)(0.0f);
+    *o = v3_fma(d, t, *o);
+    return t;
+}
+
+static inline vf ray_limit(const RayLanes *ray) { return vf_max(ray->tmin, (vf)(0.0f)); }
+
+// The hit of a surface that a ray meets in one point and that is flat.
+static inline vf flat_hit(const RayLanes *ray, vf t, vm on)
+{
+    const vm hit = on & (t > ray_limit(ray)) & !ray->self;
+    return hit ? t : (vf)(INFINITY);
+}
+
+// The hit of a closed convex solid. A ray that starts on it and goes outward never comes back; one that
+// goes inward leaves at the far end.
+static inline vf solid_hit(const RayLanes *ray, Interval solid)
+{
+    const vf limit = ray_limit(ray);
+    const vm first = !ray->self & (solid.near <= solid.far) & (solid.near > limit);
+    const vm second = ((!ray->self & (solid.near <= solid.far)) | (ray->self & ray->inward)) &
+                      (solid.far > limit);
+    return first ? solid.near : second ? solid.far : (vf)(INFINITY);
+}
+
+// q of a point, A (p - c).
+static inline v3 canonical_point(const PrimitiveLanes *p, v3 point)
+{
+    const v3 f = v3_sub(point, p->c);
+    return v3_make(v3_dot(p->row0, f), v3_dot(p->row1, f), v3_dot(p->row2, f));
+}
+
+static inline v3 canonical_direction(const PrimitiveLanes *p, v3 d)
+{
+    return v3_make(v3_dot(p->row0, d), v3_dot(p->row1, d), v3_dot(p->row2, d));
+}
+
+// The gradient in the primitive's space of a function whose gradient in the canonical space is g.
+static inline v3 canonical_gradient(const PrimitiveLanes *p, v3 g)
+{
+    return v3_fma(p->row2, g.z, v3_fma(p->row1, g.y, v3_scale(p->row0, g.x)));
+}
+
+// Settles s->p on a surface of the canonical space: `gradient` of the function there, outward, of any length;
+// `value` of the function, whose own evaluation adds `roundings` to the error of q.
+static inline void surface_curved(const PrimitiveLanes *p, v3 gradient, vf value, real roundings,
+                                  SurfaceLanes *s)
+{
+    const v3 g = canonical_gradient(p, gradient);
+    const vf inverse = (vf)(1.0f) / sqrt(v3_dot(g, g));
+    const v3 f = v3_abs(v3_sub(s->p, p->c));
+    const v3 spread = v3_make(v3_dot(v3_abs(p->row0), f), v3_dot(v3_abs(p->row1), f), v3_dot(v3_abs(p->row2), f));
+    const vf terms = fma(v3_dot(v3_abs(gradient), spread), (vf)(4.0f), (vf)(roundings));
+    s->ng = v3_scale(g, inverse);
+    surface_settle(s, value * inverse, ROUNDING * terms * inverse);
+}
+
+// plane.p - offset; one rounding where the plane is parallel to two axes.
+static inline vf plane_distance(v3 plane, vf offset, v3 p)
+{
+    return fma(plane.z, p.z, fma(plane.y, p.y, fma(plane.x, p.x, -offset)));
+}
+
+#endif

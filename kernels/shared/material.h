@@ -1,0 +1,67 @@
+// Material and texture records, and what shading needs to know of a primitive.
+#ifndef CLRT_SHARED_MATERIAL_H
+#define CLRT_SHARED_MATERIAL_H
+
+#include "shared/types.h"
+
+#define MATERIAL_BLINN 1u
+#define MATERIAL_FRESNEL 2u
+
+typedef struct MaterialRecord {
+    f32 diffuse[3];
+    f32 shininess;
+    f32 specular[3];
+    f32 ior;
+    f32 ambient[3]; // k_a times I_a; I_a alone where ambient_texture >= 0
+    f32 eta_in_rest; // 1 - 1 / ior^2, rounded once
+    f32 reflect[3];
+    f32 eta_out_rest; // 1 - ior^2, rounded once
+    f32 transmit[3];
+    f32 inverse_ior;
+    f32 emission[3];
+    u32 flags; // MATERIAL_X
+    i32 diffuse_texture; // index of a TextureRecord; -1: none
+    i32 ambient_texture;
+    u32 padding[2];
+} MaterialRecord;
+LAYOUT_SIZE(MaterialRecord, 112);
+LAYOUT_OFFSET(MaterialRecord, ambient, 32);
+LAYOUT_OFFSET(MaterialRecord, flags, 92);
+
+#define TEXTURE_KIND_CHECKER 0
+#define TEXTURE_KIND_CHECKER3D 1
+
+// Scales in two floats, so that the parity of a far cell is that of the number written in the scene.
+typedef struct TextureRecord {
+    f32 color_a[3];
+    f32 scale_u; // checker3d: the scale
+    f32 color_b[3];
+    f32 scale_v;
+    f32 scale_u_low;
+    f32 scale_v_low;
+    f32 inset; // checker3d: 1e-4 / scale
+    u32 kind;  // TEXTURE_KIND_X
+} TextureRecord;
+LAYOUT_SIZE(TextureRecord, 48);
+
+#define NO_INDEX 0xffffffffu
+
+// Beside each primitive, at the same index. The place of a hit in the order of definition, which decides ties,
+// is the order of its primitive, plus that of its instance if it has one.
+typedef struct PrimitiveInfo {
+    u32 material; // index; NO_INDEX: that of the instance
+    u32 extra;    // triangle with normals or uvs: index of a TriangleExtra; else NO_INDEX
+    u32 order_low;
+    u32 order_high;
+} PrimitiveInfo;
+LAYOUT_SIZE(PrimitiveInfo, 16);
+
+// Normals and texture coordinates at the vertices, in the space of the primitive.
+typedef struct TriangleExtra {
+    f32 normals[9]; // unit or zero-free as written, any length
+    f32 uvs[6];
+    u32 has_normals;
+} TriangleExtra;
+LAYOUT_SIZE(TriangleExtra, 64);
+
+#endif

@@ -1,0 +1,34 @@
+// RenderParams: the numbers of one image and one launch. Render space has its origin at the camera.
+#ifndef CLRT_SHARED_PARAMS_H
+#define CLRT_SHARED_PARAMS_H
+
+#include "shared/types.h"
+
+// Pixels of a tile; a work-group renders one tile at a time and has one slot a pixel.
+#define TILE_WIDTH 16
+#define TILE_HEIGHT 16
+#define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
+
+typedef struct RenderParams {
+    f32x4 camera_right; // u, v, w of the scene language
+    f32x4 camera_up;
+    f32x4 camera_back;
+    f32x4 background;
+    f32 pixel_scale; // k / H: half the view's height (at distance 1, or in units) over half the rows
+    f32 min_weight;
+    u32 width, height; // of the whole image
+    u32 left, top;     // first pixel of the crop
+    u32 crop_width, crop_height;
+    u32 samples;       // of a pixel in all
+    u32 seed;
+    u32 max_depth;
+    u32 light_count;
+    u32 lights_per_pass; // lights whose shadow rays are queued at once
+    u32 plane_count;     // the first primitives are the infinite planes
+    u32 root;            // node of the top-level hierarchy; NO_INDEX: none
+    u32 pending_depth;   // parked rays a slot can hold
+} RenderParams;
+LAYOUT_SIZE(RenderParams, 128);
+LAYOUT_OFFSET(RenderParams, pixel_scale, 64);
+
+#endif

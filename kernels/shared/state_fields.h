@@ -1,0 +1,21 @@
+// Sizes of a slot's state, so that the host can allocate what the kernels' enums name (stages/state.h).
+// Arguments are 0 or 1 but for lights (of a pass) and pending (parked rays).
+#ifndef CLRT_SHARED_STATE_FIELDS_H
+#define CLRT_SHARED_STATE_FIELDS_H
+
+#define PENDING_REALS 9
+#define STATE_REALS(samples, shadows, lights) (16 + 3 * (samples) + (shadows) * (3 + 7 * (lights)))
+#define PENDING_INTS(instances) (2 + (instances))
+#define STATE_INTS(shadows, branching, instances) (7 + (shadows) + (branching) + 2 * (instances))
+
+// Lights whose shadow rays a slot can hold at once; a bit of FLAGS each.
+#define LIGHTS_PER_PASS_MAX 16
+
+// Rays are counted by kind; every work-item counts what it starts.
+#define RAYS_CAMERA 0
+#define RAYS_SHADOW 1
+#define RAYS_REFLECTED 2
+#define RAYS_TRANSMITTED 3
+#define RAYS_KINDS 4
+
+#endif

@@ -1,0 +1,191 @@
+// Hit: everything that shading asks of the point where a ray meets a surface.
+#ifndef CLRT_KERNELS_STAGES_HIT_H
+#define CLRT_KERNELS_STAGES_HIT_H
+
+#include "accel/batch.h"
+#include "base/offset.h"
+#include "base/table.h"
+#include "stages/state.h"
+#if HAS_CHECKER3D
+#include "shapes/object_frame.h"
+#endif
+#if HAS_CHECKER || HAS_CHECKER3D
+#include "texture/checker.h"
+#endif
+
+// Records in numbers, for Row.
+#define PRIMITIVE_NUMBERS 16
+#define INFO_NUMBERS 4
+#define MATERIAL_NUMBERS 28
+#define TEXTURE_NUMBERS 12
+#define EXTRA_NUMBERS 16
+
+// What shading reads of the scene, beside the hierarchy.
+typedef struct {
+    global const MaterialRecord *materials;
+#if HAS_CHECKER || HAS_CHECKER3D
+    global const TextureRecord *textures;
+#endif
+#if HAS_TRIANGLE_EXTRA
+    global const TriangleExtra *extras;
+#endif
+#if HAS_CHECKER3D
+    global const ObjectFrame *frames; // one a primitive
+#endif
+} Shading;
+
+typedef struct {
+    v3 dir;       // of the ray
+    v3 point;     // in render space
+    v3 error;     // bound of the error of each coordinate of point
+    v3 ng, ns;    // unit, turned to the ray's origin
+    vm inside;    // the ray met the surface from its inner side
+    vi primitive; // a valid index in every lane
+    Row material;
+#if HAS_UV
+    vf u, v;
+    vf u_whole, v_whole;
+#endif
+#if HAS_CHECKER3D
+    ObjectPoint object; // in the shape's own space, before its transforms
+#endif
+} Hit;
+
+static inline PrimitiveLanes primitive_gather(const Row *row)
+{
+    PrimitiveLanes p;
+    p.row0 = row_real3(row, 0);
+    p.row1 = row_real3(row, 4);
+    p.row2 = row_real3(row, 8);
+    p.c = v3_make(row_real(row, 3), row_real(row, 7), row_real(row, 11));
+    p.p0 = row_real(row, 12);
+    p.p1 = row_real(row, 13);
+    return p;
+}
+
+#if HAS_TRIANGLE_EXTRA
+// Carries a normal out of a space q = A (p - c): the gradient of a function of q.
+static inline v3 carry_normal(const PrimitiveLanes *map, v3 n)
+{
+    return v3_fma(map->row2, n.z, v3_fma(map->row1, n.y, v3_scale(map->row0, n.x)));
+}
+
+// Normals and texture coordinates that vertices bring along, in the lanes that have them.
+static inline void hit_interpolate(const Shading *shading, vi extra, vm has, const SurfaceLanes *surface,
+                                   v3 *normal, Hit *hit)
+{
+    const Row row = row_make(shading->extras, has ? extra : (vi)(0), EXTRA_NUMBERS);
+    const vf b1 = surface->b1, b2 = surface->b2, b0 = (1.0f - b1) - b2;
+    const v3 n = v3_fma(row_real3(&row, 6), b2, v3_fma(row_real3(&row, 3), b1, v3_scale(row_real3(&row, 0), b0)));
+    *normal = v3_select(has & (row_int(&row, 15) != (vi)(0)), n, *normal);
+#if HAS_UV
+    const vf u = fma(row_real(&row, 13), b2, fma(row_real(&row, 11), b1, row_real(&row, 9) * b0));
+    const vf v = fma(row_real(&row, 14), b2, fma(row_real(&row, 12), b1, row_real(&row, 10) * b0));
+    hit->u = has ? u : hit->u;
+    hit->v = has ? v : hit->v;
+#endif
+}
+#endif
+
+// The surface at distance t along the rays of the lanes. Lanes without a hit give numbers without meaning.
+static inline Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 dir, vf t, vi primitive,
+                           vi instance)
+{
+    Hit hit;
+    SurfaceLanes surface;
+    RayLanes ray;
+    ray.org = org;
+    ray.dir = dir;
+    ray.tmin = (vf)(0.0f);
+    ray.self = (vm)(0);
+    ray.inward = (vm)(0);
+    hit.dir = dir;
+    hit.primitive = primitive < (vi)(0) ? (vi)(0) : primitive;
+    const Row record = row_make(scene->primitives, hit.primitive, PRIMITIVE_NUMBERS);
+    const Row info = row_make(scene->infos, hit.primitive, INFO_NUMBERS);
+    const PrimitiveLanes shape = primitive_gather(&record);
+    vi material = row_int(&info, 0);
+#if HAS_INSTANCES
+    const vm instanced = instance >= (vi)(0);
+    const vi placed = instanced ? instance : (vi)(0);
+    const Row map_row = row_make(scene->primitives, placed, PRIMITIVE_NUMBERS);
+    const PrimitiveLanes map = primitive_gather(&map_row);
+    const v3 from = v3_sub(org, map.c);
+    const v3 local_org = v3_make(v3_dot(map.row0, from), v3_dot(map.row1, from), v3_dot(map.row2, from));
+    const v3 local_dir = v3_make(v3_dot(map.row0, dir), v3_dot(map.row1, dir), v3_dot(map.row2, dir));
+    ray.org = v3_select(instanced, local_org, org);
+    ray.dir = v3_select(instanced, local_dir, dir);
+    const Row placed_info = row_make(scene->infos, placed, INFO_NUMBERS);
+    material = instanced & (material < (vi)(0)) ? row_int(&placed_info, 0) : material;
+#endif
+    const vi kind = row_int(&record, 14) & (int)PRIMITIVE_KIND_MASK;
+    surface_primitive(kind, &shape, &ray, t, &surface);
+#if HAS_UV
+    hit.u = surface.u;
+    hit.v = surface.v;
+    hit.u_whole = surface.u_whole;
+    hit.v_whole = surface.v_whole;
+#endif
+#if HAS_TRIANGLE_EXTRA
+    v3 normal = surface.ng;
+    const vi extra = row_int(&info, 1);
+    const vm has_extra = extra >= (vi)(0);
+    if (vm_any(has_extra))
+        hit_interpolate(shading, extra, has_extra, &surface, &normal, &hit);
+#endif
+#if HAS_CHECKER3D
+    hit.object = object_point(shading->frames, hit.primitive, surface.p, surface.ng);
+#endif
+#if HAS_INSTANCES
+    SurfaceLanes outside = surface;
+    surface_place(&map, org, dir, t, &outside);
+    surface.p = v3_select(instanced, outside.p, surface.p);
+    surface.error = v3_select(instanced, outside.error, surface.error);
+    surface.ng = v3_select(instanced, outside.ng, surface.ng);
+#if HAS_TRIANGLE_EXTRA
+    normal = v3_select(instanced, carry_normal(&map, normal), normal);
+#endif
+#endif
+    hit.point = surface.p;
+    hit.error = surface.error;
+    hit.inside = v3_dot(dir, surface.ng) > (vf)(0.0f);
+    hit.ng = v3_select(hit.inside, v3_neg(surface.ng), surface.ng);
+#if HAS_TRIANGLE_EXTRA
+    const v3 ns = v3_normalize(normal);
+    hit.ns = v3_select(v3_dot(ns, hit.ng) < (vf)(0.0f), v3_neg(ns), ns);
+#else
+    hit.ns = hit.ng;
+#endif
+    hit.material = row_make(shading->materials, material < (vi)(0) ? (vi)(0) : material, MATERIAL_NUMBERS);
+    return hit;
+}
+
+// A color of the material, number k of its record, or what the texture of index `texture` gives instead.
+static inline v3 hit_color(const Hit *hit, const Shading *shading, int k, vi texture)
+{
+    v3 color = row_real3(&hit->material, k);
+#if HAS_CHECKER || HAS_CHECKER3D
+    const vm textured = texture >= (vi)(0);
+    if (vm_any(textured)) {
+        const Row row = row_make(shading->textures, textured ? texture : (vi)(0), TEXTURE_NUMBERS);
+        vf odd = (vf)(0.0f);
+#if HAS_CHECKER
+        odd = parity(cell_parity(hit->u_whole, hit->u, row_real(&row, 3), row_real(&row, 8)) +
+                     cell_parity(hit->v_whole, hit->v, row_real(&row, 7), row_real(&row, 9)));
+#endif
+#if HAS_CHECKER3D
+        const vf scale = row_real(&row, 3), low = row_real(&row, 8), inset = row_real(&row, 10);
+        const v3 p = v3_fma(hit->object.normal, -inset, hit->object.fine);
+        const vf odd3 = parity(cell_parity(hit->object.whole.x, p.x, scale, low) +
+                               cell_parity(hit->object.whole.y, p.y, scale, low) +
+                               cell_parity(hit->object.whole.z, p.z, scale, low));
+        odd = row_int(&row, 11) == (vi)(TEXTURE_KIND_CHECKER3D) ? odd3 : odd;
+#endif
+        const v3 cell = v3_select(odd != (vf)(0.0f), row_real3(&row, 4), row_real3(&row, 0));
+        color = v3_select(textured, cell, color);
+    }
+#endif
+    return color;
+}
+
+#endif

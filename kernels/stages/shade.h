@@ -1,0 +1,160 @@
+// Stage: shade_hits. For each ray of the queue: what it brings at once (background, emission, ambient), shadow
+// rays towards the lights of this pass, and the rays that follow it.
+#ifndef CLRT_KERNELS_STAGES_SHADE_H
+#define CLRT_KERNELS_STAGES_SHADE_H
+
+#include "light/punctual.h"
+#include "material/lobes.h"
+#include "stages/hit.h"
+#include "stages/queue.h"
+
+// Bits of FLAGS: a shadow ray towards light k of the pass is bit k; a next ray is this one.
+#define FLAG_NEXT (1 << 30)
+
+// Numbers of a MaterialRecord.
+enum {
+    MATERIAL_DIFFUSE = 0, MATERIAL_SHININESS = 3, MATERIAL_SPECULAR = 4, MATERIAL_IOR = 7,
+    MATERIAL_AMBIENT = 8, MATERIAL_ETA_IN_REST = 11, MATERIAL_REFLECT = 12, MATERIAL_ETA_OUT_REST = 15,
+    MATERIAL_TRANSMIT = 16, MATERIAL_INVERSE_IOR = 19, MATERIAL_EMISSION = 20, MATERIAL_FLAGS = 23,
+    MATERIAL_DIFFUSE_TEXTURE = 24, MATERIAL_AMBIENT_TEXTURE = 25
+};
+
+// Lights first..last of params; opening and closing tell the first and the last pass over a hit.
+typedef struct {
+    uint first, last;
+    bool opening, closing;
+} LightPass;
+
+static inline v3 hit_diffuse(const Hit *hit, const Shading *shading)
+{
+    return hit_color(hit, shading, MATERIAL_DIFFUSE, row_int(&hit->material, MATERIAL_DIFFUSE_TEXTURE));
+}
+
+// Emission and ambient light.
+static inline v3 shade_unlit(const Hit *hit, const Shading *shading)
+{
+    v3 sum = v3_splat(0.0f);
+#if HAS_EMISSION
+    sum = row_real3(&hit->material, MATERIAL_EMISSION);
+#endif
+#if HAS_AMBIENT
+    v3 ambient = row_real3(&hit->material, MATERIAL_AMBIENT);
+#if HAS_CHECKER || HAS_CHECKER3D
+    const vi texture = row_int(&hit->material, MATERIAL_AMBIENT_TEXTURE);
+    const v3 scaled = v3_mul(ambient, hit_color(hit, shading, MATERIAL_AMBIENT, texture));
+    ambient = v3_select(texture >= (vi)(0), scaled, ambient);
+#endif
+    sum = v3_add(sum, ambient);
+#endif
+    return sum;
+}
+
+#if HAS_LIGHTS
+// Radiance that the light sends to the eye by way of the hit, were nothing between them; 0 where it cannot.
+static inline v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
+{
+    const vf cosine = v3_dot(hit->ns, light->dir);
+    const vm lit = (cosine > (vf)(0.0f)) & (v3_dot(hit->ng, light->dir) > (vf)(0.0f));
+    v3 reflected = v3_scale(diffuse, cosine);
+#if HAS_SPECULAR
+    const v3 specular = row_real3(&hit->material, MATERIAL_SPECULAR);
+    if (vm_any(lit & ((specular.x > (vf)(0.0f)) | (specular.y > (vf)(0.0f)) | (specular.z > (vf)(0.0f))))) {
+        const vf exponent = row_real(&hit->material, MATERIAL_SHININESS);
+        const v3 to_eye = v3_neg(hit->dir);
+        vf lobe;
+#if HAS_BLINN && HAS_PHONG
+        const vm blinn = (row_int(&hit->material, MATERIAL_FLAGS) & (int)MATERIAL_BLINN) != (vi)(0);
+        lobe = blinn ? lobe_blinn(hit->ns, light->dir, to_eye, exponent)
+                     : lobe_phong(hit->ns, light->dir, to_eye, exponent);
+#elif HAS_BLINN
+        lobe = lobe_blinn(hit->ns, light->dir, to_eye, exponent);
+#else
+        lobe = lobe_phong(hit->ns, light->dir, to_eye, exponent);
+#endif
+        reflected = v3_fma(specular, lobe, reflected);
+    }
+#endif
+    return v3_select(lit, v3_mul(light->intensity, reflected), v3_splat(0.0f));
+}
+
+// Light of the pass: queued as shadow rays, or added at once where nothing casts shadows. Returns FLAGS.
+static inline vi shade_lights(const State *s, const Slots *slots, const Hit *hit, const Shading *shading,
+                              global const LightRecord *lights, const LightPass *pass, v3 throughput,
+                              v3 *radiance, vm shaded)
+{
+    vi flags = (vi)(0);
+    const v3 diffuse = hit_diffuse(hit, shading);
+    for (uint l = pass->first; l < pass->last; l++) {
+        const LightSample light = light_sample(&lights[l], hit->point);
+        v3 gain = v3_mul(throughput, shade_light(hit, diffuse, &light));
+        const vm arrives = shaded & ((gain.x > (vf)(0.0f)) | (gain.y > (vf)(0.0f)) | (gain.z > (vf)(0.0f)));
+#if HAS_SHADOWS
+        const uint fields = SHADOW_LIGHTS + (l - pass->first) * SHADOW_FIELDS;
+        flags = flags | (arrives ? (vi)(1 << (l - pass->first)) : (vi)(0));
+        state_store3(s, fields + SHADOW_DIR, slots, light.dir, arrives);
+        state_store(s, fields + SHADOW_T, slots, light.distance, arrives);
+        state_store3(s, fields + SHADOW_GAIN, slots, gain, arrives);
+#else
+        *radiance = v3_select(arrives, v3_add(*radiance, gain), *radiance);
+#endif
+    }
+    return flags;
+}
+#endif
+
+#include "stages/spawn.h"
+
+// Shades the rays of the queue for the lights of one pass.
+static inline void shade_hits(const State *s, const Hierarchy *scene, const Shading *shading,
+                              global const LightRecord *lights, constant RenderParams *params,
+                              const LightPass *pass, uint count, uint *rays)
+{
+    global const int *queue = s->ints + QUEUE * TILE_PIXELS;
+    for (uint i = GROUP_ITEM * LANES; i < count; i += GROUP * LANES) {
+        const Slots slots = slots_make(queue, i, count);
+#if HAS_SURFACES || HAS_BACKGROUND
+        const vf t = state_load(s, RAY_T, &slots);
+        const vm shaded = slots.valid & (t < (vf)(INFINITY));
+        const v3 throughput = state_load3(s, THROUGHPUT, &slots);
+#endif
+        v3 radiance = state_load3(s, RADIANCE, &slots);
+        vi flags = (vi)(0);
+#if HAS_BACKGROUND
+        if (pass->opening) {
+            const v3 back = v3_mul(throughput, v3_from(params->background));
+            radiance = v3_select(shaded, radiance, v3_add(radiance, back));
+        }
+#endif
+#if HAS_SURFACES
+        if (vm_any(shaded)) {
+            vi instance = (vi)(NO_HIT);
+#if HAS_INSTANCES
+            instance = state_load_int(s, INSTANCE, &slots);
+#endif
+            const Hit hit = hit_make(scene, shading, state_load3(s, RAY_ORG, &slots),
+                                     state_load3(s, RAY_DIR, &slots), t,
+                                     state_load_int(s, PRIMITIVE, &slots), instance);
+            if (pass->opening) {
+                const v3 unlit = v3_mul(throughput, shade_unlit(&hit, shading));
+                radiance = v3_select(shaded, v3_add(radiance, unlit), radiance);
+#if HAS_SHADOWS
+                const vi self = hit.primitive * 2 + (hit.inside ? (vi)(1) : (vi)(0));
+                state_store_int(s, SHADOW_SELF, &slots, self, shaded);
+                state_store3(s, SHADOW_ORG, &slots, offset_origin(hit.point, hit.error, hit.ng, hit.ng), shaded);
+#endif
+            }
+#if HAS_LIGHTS
+            flags = shade_lights(s, &slots, &hit, shading, lights, pass, throughput, &radiance, shaded);
+#endif
+#if HAS_REFLECT || HAS_TRANSMIT
+            if (pass->closing)
+                flags = flags | spawn_rays(s, &slots, &hit, params, throughput, instance, shaded, rays);
+#endif
+        }
+#endif
+        state_store3(s, RADIANCE, &slots, radiance, slots.valid);
+        state_store_int(s, FLAGS, &slots, flags, slots.valid);
+    }
+}
+
+#endif

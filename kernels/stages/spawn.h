@@ -1,0 +1,170 @@
+// The rays that follow a hit: mirrored and transmitted, at most two.
+#ifndef CLRT_KERNELS_STAGES_SPAWN_H
+#define CLRT_KERNELS_STAGES_SPAWN_H
+
+#if HAS_REFLECT || HAS_TRANSMIT
+
+// A ray that follows, where m is true.
+typedef struct {
+    v3 org, dir, throughput;
+    vi self; // as BatchHits.self
+    vm m;
+} NextRay;
+
+// Weights and directions of the two rays (scene language, section 4).
+typedef struct {
+    v3 reflect_dir, reflect_weight;
+    v3 transmit_dir, transmit_weight;
+} Scatter;
+
+static inline Scatter scatter_make(const Hit *hit)
+{
+    Scatter s;
+    const vf cos_ns = -v3_dot(hit->ns, hit->dir);
+    const v3 n = v3_select(cos_ns > (vf)(0.0f), hit->ns, hit->ng);
+    s.reflect_dir = v3_normalize(reflect_about(hit->dir, n));
+    s.reflect_weight = row_real3(&hit->material, MATERIAL_REFLECT);
+    s.transmit_dir = hit->dir;
+    s.transmit_weight = v3_splat(0.0f);
+#if HAS_TRANSMIT || HAS_FRESNEL
+    const v3 k_t = row_real3(&hit->material, MATERIAL_TRANSMIT);
+    const vm opaque = (k_t.x == (vf)(0.0f)) & (k_t.y == (vf)(0.0f)) & (k_t.z == (vf)(0.0f));
+    const vm leaves = hit->inside & !opaque;
+    const vf eta = leaves ? row_real(&hit->material, MATERIAL_IOR)
+                          : row_real(&hit->material, MATERIAL_INVERSE_IOR);
+    const vf rest = leaves ? row_real(&hit->material, MATERIAL_ETA_OUT_REST)
+                           : row_real(&hit->material, MATERIAL_ETA_IN_REST);
+    const Refraction r = refract_cosines(vf_min(-v3_dot(n, hit->dir), (vf)(1.0f)), eta, rest);
+    const v3 k_r = s.reflect_weight;
+    s.transmit_weight = v3_select(r.total, v3_splat(0.0f), k_t);
+    s.reflect_weight = v3_select(r.total, v3_add(k_r, k_t), k_r);
+#if HAS_FRESNEL
+    const vm fresnel = (row_int(&hit->material, MATERIAL_FLAGS) & (int)MATERIAL_FRESNEL) != (vi)(0);
+    const vf f = fresnel_dielectric(&r, eta);
+    const v3 larger = v3_make(vf_max(k_r.x, k_t.x), vf_max(k_r.y, k_t.y), vf_max(k_r.z, k_t.z));
+    const v3 reflected = v3_select(r.total, larger, v3_scale(k_r, f));
+    s.reflect_weight = v3_select(fresnel, reflected, s.reflect_weight);
+    s.transmit_weight = v3_select(fresnel, v3_scale(s.transmit_weight, 1.0f - f), s.transmit_weight);
+#endif
+    const vf along = fma(eta, r.cos_in, -r.cos_out);
+    s.transmit_dir = v3_normalize(v3_fma(n, along, v3_scale(hit->dir, eta)));
+#endif
+    return s;
+}
+
+// The ray in direction dir with weight, where it has enough left to be traced.
+static inline NextRay next_ray(const Hit *hit, v3 dir, v3 weight, v3 throughput, vm through, real min_weight,
+                               vm m)
+{
+    NextRay next;
+    const v3 side = v3_select(through, v3_neg(hit->ng), hit->ng);
+    next.dir = dir;
+    next.throughput = v3_mul(throughput, weight);
+    next.org = offset_origin(hit->point, hit->error, hit->ng, side);
+    const vm inward = through != hit->inside;
+    next.self = hit->primitive * 2 + (inward ? (vi)(1) : (vi)(0));
+    const vm enough = (next.throughput.x >= (vf)(min_weight)) | (next.throughput.y >= (vf)(min_weight)) |
+                      (next.throughput.z >= (vf)(min_weight));
+    const vm some = (weight.x > (vf)(0.0f)) | (weight.y > (vf)(0.0f)) | (weight.z > (vf)(0.0f));
+    next.m = m & enough & some & (v3_dot(dir, side) > (vf)(0.0f));
+    return next;
+}
+
+static inline void store_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance, vm m)
+{
+    state_store3(s, RAY_ORG, slots, ray->org, m);
+    state_store3(s, RAY_DIR, slots, ray->dir, m);
+    state_store3(s, THROUGHPUT, slots, ray->throughput, m);
+    state_store_int(s, SELF, slots, ray->self, m);
+    state_store_int(s, DEPTH, slots, depth, m);
+#if HAS_INSTANCES
+    state_store_int(s, SELF_INSTANCE, slots, instance, m);
+#endif
+}
+
+#if HAS_BRANCHING
+// Place of the parked ray on top of each slot's stack, for gather and scatter.
+static inline vi pending_place(const Slots *slots, vi entry, int fields)
+{
+    return entry * (fields * TILE_PIXELS) + slots->index;
+}
+
+static inline void park_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance, vm m)
+{
+    const vi count = state_load_int(s, PENDING_COUNT, slots);
+    global real *reals = s->reals + s->pending_reals * TILE_PIXELS;
+    global int *ints = s->ints + INT_FIELDS * TILE_PIXELS;
+    const vi place = pending_place(slots, count, PENDING_REALS);
+    const v3 parts[3] = { ray->org, ray->dir, ray->throughput };
+    for (int k = 0; k < 3; k++) {
+        vf_scatter(reals + 3 * k * TILE_PIXELS, place, parts[k].x, m);
+        vf_scatter(reals + (3 * k + 1) * TILE_PIXELS, place, parts[k].y, m);
+        vf_scatter(reals + (3 * k + 2) * TILE_PIXELS, place, parts[k].z, m);
+    }
+    const vi int_place = pending_place(slots, count, PENDING_INTS(HAS_INSTANCES));
+    vi_scatter(ints, int_place, ray->self, m);
+    vi_scatter(ints + TILE_PIXELS, int_place, depth, m);
+#if HAS_INSTANCES
+    vi_scatter(ints + 2 * TILE_PIXELS, int_place, instance, m);
+#endif
+    state_store_int(s, PENDING_COUNT, slots, count + 1, m);
+}
+
+// Makes the youngest parked ray the one in flight, in the lanes of m, which have one.
+static inline void unpark_ray(const State *s, const Slots *slots, vm m)
+{
+    const vi count = state_load_int(s, PENDING_COUNT, slots);
+    const vi entry = m ? count - 1 : (vi)(0);
+    global const real *reals = s->reals + s->pending_reals * TILE_PIXELS;
+    global const int *ints = s->ints + INT_FIELDS * TILE_PIXELS;
+    const vi place = pending_place(slots, entry, PENDING_REALS);
+    NextRay ray;
+    v3 *parts[3] = { &ray.org, &ray.dir, &ray.throughput };
+    for (int k = 0; k < 3; k++)
+        *parts[k] = v3_make(vf_gather(reals + 3 * k * TILE_PIXELS, place),
+                            vf_gather(reals + (3 * k + 1) * TILE_PIXELS, place),
+                            vf_gather(reals + (3 * k + 2) * TILE_PIXELS, place));
+    const vi int_place = pending_place(slots, entry, PENDING_INTS(HAS_INSTANCES));
+    vi instance = (vi)(NO_HIT);
+    ray.self = vi_gather(ints, int_place);
+    const vi depth = vi_gather(ints + TILE_PIXELS, int_place);
+#if HAS_INSTANCES
+    instance = vi_gather(ints + 2 * TILE_PIXELS, int_place);
+#endif
+    store_ray(s, slots, &ray, depth, instance, m);
+    state_store_int(s, PENDING_COUNT, slots, entry, m);
+}
+#endif
+
+// Puts the first of the rays that follow in flight and parks the second; returns FLAG_NEXT where there is one.
+static inline vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, constant RenderParams *params,
+                            v3 throughput, vi instance, vm shaded, uint *rays)
+{
+    const vi depth = state_load_int(s, DEPTH, slots) + 1;
+    const vm deeper = shaded & (depth <= (vi)((int)params->max_depth));
+    if (!vm_any(deeper))
+        return (vi)(0);
+    const Scatter scatter = scatter_make(hit);
+    const NextRay mirrored = next_ray(hit, scatter.reflect_dir, scatter.reflect_weight, throughput, (vm)(0),
+                                      params->min_weight, deeper);
+    store_ray(s, slots, &mirrored, depth, instance, mirrored.m);
+    vm next = mirrored.m;
+    rays[RAYS_REFLECTED] += popcount(vm_bits(mirrored.m));
+#if HAS_TRANSMIT
+    const NextRay through = next_ray(hit, scatter.transmit_dir, scatter.transmit_weight, throughput,
+                                     hit->inside == hit->inside, params->min_weight, deeper);
+    rays[RAYS_TRANSMITTED] += popcount(vm_bits(through.m));
+    const vm single = through.m & !mirrored.m;
+    store_ray(s, slots, &through, depth, instance, single);
+#if HAS_BRANCHING
+    const vm both = through.m & mirrored.m;
+    if (vm_any(both))
+        park_ray(s, slots, &through, depth, instance, both);
+#endif
+    next = next | single;
+#endif
+    return next ? (vi)(FLAG_NEXT) : (vi)(0);
+}
+
+#endif
+#endif

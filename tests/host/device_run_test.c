@@ -1,0 +1,284 @@
+// Device, Buffer, Program and Kernel on the device that CLRT_DEVICE names; skipped (77) without one.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "device/buffer.h"
+#include "device/program.h"
+
+enum { SKIPPED = 77, COUNT = 1000 };
+
+static const char SOURCE[] =
+    "kernel void scale(global const float *from, global float *to, float factor, uint count)\n"
+    "{ const uint i = get_global_id(0); if (i < count) to[i] = from[i] * factor; }\n"
+    "kernel void sum_group(global const uint *from, local uint *scratch, global uint *sums)\n"
+    "{ const uint l = get_local_id(0); scratch[l] = from[get_global_id(0)]; barrier(CLK_LOCAL_MEM_FENCE);\n"
+    "  if (l == 0) { uint s = 0; for (uint i = 0; i < get_local_size(0); i++) s += scratch[i];\n"
+    "    sums[get_group_id(0)] = s; } }\n";
+
+typedef struct Fixture {
+    DeviceInfo info;
+    Device *device;
+    Program *program;
+} Fixture;
+
+static void check(bool ok, const Error *error)
+{
+    if (!ok)
+        fail_msg("%s", error->text);
+}
+
+static int setup(void **state)
+{
+    static Error error;
+    Fixture *fixture = *state;
+    const DeviceOptions options = {.profiling = true};
+    fixture->device = device_open(&fixture->info, &options, &error);
+    check(fixture->device, &error);
+    fixture->program = program_create(fixture->device, SOURCE, strlen(SOURCE), "", &error);
+    check(fixture->program, &error);
+    assert_true(program_build_seconds(fixture->program) > 0);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    Fixture *fixture = *state;
+    program_destroy(fixture->program);
+    assert_int_equal(device_bytes(fixture->device), 0);
+    device_close(fixture->device);
+    return 0;
+}
+
+static void runs_a_kernel_by_names(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    f32 from[COUNT], to[COUNT];
+    for (u32 i = 0; i < COUNT; i++)
+        from[i] = (f32)i;
+    Buffer *in = buffer_create(fixture->device, "in", sizeof from, &error);
+    Buffer *out = buffer_create(fixture->device, "out", sizeof to, &error);
+    Kernel *kernel = kernel_create(fixture->program, "scale", &error);
+    assert_true(in && out && kernel);
+    check(buffer_upload(in, 0, from, sizeof from, &error), &error);
+    check(kernel_set_u32(kernel, "count", COUNT, &error), &error);
+    check(kernel_set_buffer(kernel, "to", out, &error), &error);
+    check(kernel_set_buffer(kernel, "from", in, &error), &error);
+    check(kernel_set_f32(kernel, "factor", 3.0f, &error), &error);
+    check(kernel_launch(kernel, COUNT, 64, &error), &error); // 1024 work-items, the last 24 idle
+    check(buffer_download(out, 0, to, sizeof to, &error), &error);
+    for (u32 i = 0; i < COUNT; i++)
+        assert_true(to[i] == 3.0f * (f32)i);
+    check(kernel_launch(kernel, 0, 0, &error), &error);
+    check(device_finish(fixture->device, &error), &error);
+    assert_int_equal(kernel_launches(kernel), 1);
+    assert_true(kernel_seconds(kernel) > 0);
+    kernel_destroy(kernel);
+    buffer_destroy(out);
+    buffer_destroy(in);
+}
+
+static void gives_local_memory(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    u32 numbers[8] = {1, 2, 3, 4, 5, 6, 7, 8}, sums[2];
+    Buffer *in = buffer_wrap(fixture->device, "in", numbers, sizeof numbers, &error);
+    Buffer *out = buffer_create(fixture->device, "out", sizeof sums, &error);
+    Kernel *kernel = kernel_create(fixture->program, "sum_group", &error);
+    assert_true(in && out && kernel);
+    assert_true(kernel_local_max(kernel) >= 4);
+    check(kernel_set_buffer(kernel, "from", in, &error), &error);
+    check(kernel_set_buffer(kernel, "sums", out, &error), &error);
+    check(kernel_set_local(kernel, "scratch", 4 * sizeof(u32), &error), &error);
+    check(kernel_launch(kernel, 8, 4, &error), &error);
+    check(buffer_download(out, 0, sums, sizeof sums, &error), &error);
+    assert_int_equal(sums[0], 10);
+    assert_int_equal(sums[1], 26);
+    kernel_destroy(kernel);
+    buffer_destroy(out);
+    buffer_destroy(in);
+}
+
+static void refuses_wrong_arguments(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    Kernel *kernel = kernel_create(fixture->program, "scale", &error);
+    assert_non_null(kernel);
+    assert_false(kernel_set_u32(kernel, "cuont", 1, &error));
+    assert_int_equal(error.code, ERROR_DEVICE);
+    assert_non_null(strstr(error.text, "'cuont'; it has: from, to, factor, count"));
+    assert_true(kernel_has(kernel, "to"));
+    assert_false(kernel_has(kernel, "t"));
+    assert_false(kernel_set_bytes(kernel, "factor", "12345678", 8, &error));
+    assert_non_null(strstr(error.text, "CL_INVALID_ARG_SIZE"));
+    check(kernel_set_u32(kernel, "count", 1, &error), &error);
+    assert_false(kernel_launch(kernel, 1, 0, &error));
+    assert_non_null(strstr(error.text, "kernel 'scale': argument 'from' has not been set"));
+    kernel_destroy(kernel);
+    assert_null(kernel_create(fixture->program, "scael", &error));
+    assert_non_null(strstr(error.text, "'scael'"));
+    assert_non_null(strstr(error.text, "CL_INVALID_KERNEL_NAME"));
+}
+
+static void reports_a_failed_build(void **state)
+{
+    Fixture *fixture = *state;
+    static const char BROKEN[] = "#line 41 \"kernels/stages/broken.cl\"\n"
+                                 "kernel void f(global float *x)\n{ x[0] = not_declared; }\n";
+    Error error;
+    assert_null(program_create(fixture->device, BROKEN, strlen(BROKEN), "-DHAS_X=1", &error));
+    assert_int_equal(error.code, ERROR_DEVICE);
+    assert_non_null(strstr(error.text, "CL_BUILD_PROGRAM_FAILURE"));
+    assert_non_null(strstr(error.text, "-DHAS_X=1"));
+    assert_non_null(strstr(error.text, "kernels/stages/broken.cl"));
+    assert_non_null(strstr(error.text, "not_declared"));
+}
+
+static void keeps_account_of_buffers(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    Buffer *a = buffer_create(fixture->device, "a", 4 << 20, &error);
+    Buffer *b = buffer_create(fixture->device, "b", 1000, &error);
+    Buffer *empty = buffer_create(fixture->device, "empty", 0, &error);
+    assert_true(a && b && empty);
+    assert_int_equal(device_bytes(fixture->device), (4 << 20) + 1000 + buffer_bytes(empty));
+    assert_ptr_equal(device_buffers(fixture->device), empty);
+    assert_string_equal(buffer_name(buffer_next(empty)), "b");
+    buffer_destroy(b);
+    assert_ptr_equal(buffer_next(empty), a);
+    buffer_destroy(empty);
+    buffer_destroy(a);
+    assert_int_equal(device_bytes(fixture->device), 0);
+    assert_true(device_bytes_peak(fixture->device) >= (4 << 20) + 1000);
+}
+
+static void copies_and_fills_parts(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    u32 values[4];
+    Buffer *buffer = buffer_create(fixture->device, "parts", sizeof values, &error);
+    assert_non_null(buffer);
+    check(buffer_fill_u32(buffer, 0, 7, sizeof values, &error), &error);
+    check(buffer_fill_u32(buffer, 4, 8, 4, &error), &error);
+    check(buffer_upload(buffer, 8, &(u32){9}, 4, &error), &error);
+    check(buffer_download(buffer, 0, values, sizeof values, &error), &error);
+    assert_memory_equal(values, ((u32[]){7, 8, 9, 7}), sizeof values);
+    check(buffer_download(buffer, 12, values, 4, &error), &error);
+    assert_int_equal(values[0], 7);
+    assert_false(buffer_upload(buffer, 8, values, 9, &error));
+    assert_non_null(strstr(error.text, "'parts'"));
+    assert_false(buffer_download(buffer, 17, values, 0, &error));
+    assert_false(buffer_fill_u32(buffer, UINT64_MAX - 3, 0, 8, &error));
+    buffer_destroy(buffer);
+}
+
+static void wraps_memory_of_the_host(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    const u64 bytes = (3u << 20) + 12;
+    f32 *memory = device_memory_alloc(bytes);
+    assert_non_null(memory);
+    assert_int_equal((uintptr_t)memory % (2u << 20), 0);
+    assert_true(memory[0] == 0.0f && memory[bytes / 4 - 1] == 0.0f);
+    memory[0] = 5.0f;
+    memory[bytes / 4 - 1] = 6.0f;
+    Buffer *in = buffer_wrap(fixture->device, "wrapped", memory, bytes, &error);
+    Buffer *out = buffer_create(fixture->device, "out", bytes, &error);
+    Kernel *kernel = kernel_create(fixture->program, "scale", &error);
+    assert_true(in && out && kernel);
+    check(kernel_set_buffer(kernel, "from", in, &error), &error);
+    check(kernel_set_buffer(kernel, "to", out, &error), &error);
+    check(kernel_set_f32(kernel, "factor", 2.0f, &error), &error);
+    check(kernel_set_u32(kernel, "count", (u32)(bytes / 4), &error), &error);
+    check(kernel_launch(kernel, bytes / 4, 0, &error), &error);
+    f32 last;
+    check(buffer_download(out, bytes - 4, &last, 4, &error), &error);
+    assert_true(last == 12.0f);
+    kernel_destroy(kernel);
+    buffer_destroy(out);
+    buffer_destroy(in);
+    device_memory_free(memory, bytes);
+    assert_null(device_memory_alloc(0));
+}
+
+static void refuses_what_does_not_fit(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    const u64 bytes[] = {fixture->info.allocation_max + 1, UINT64_MAX};
+    for (size_t i = 0; i < 2; i++) {
+        assert_null(buffer_create(fixture->device, "the film", bytes[i], &error));
+        assert_int_equal(error.code, ERROR_MEMORY);
+        assert_non_null(strstr(error.text, "'the film'"));
+        assert_non_null(strstr(error.text, "MiB"));
+        assert_int_equal(device_bytes(fixture->device), 0);
+    }
+}
+
+static void bounds_the_threads_of_a_cpu(void **state)
+{
+    const Fixture *fixture = *state;
+    Error error;
+    const DeviceOptions one = {.threads = 1};
+    Device *device = device_open(&fixture->info, &one, &error);
+    check(device, &error);
+    if (fixture->info.type == DEVICE_CPU)
+        assert_int_equal(device_info(device)->compute_units, 1);
+    Program *program = program_create(device, SOURCE, strlen(SOURCE), "", &error);
+    check(program, &error);
+    Kernel *kernel = kernel_create(program, "sum_group", &error);
+    check(kernel, &error);
+    Buffer *buffer = buffer_create(device, "both", 64, &error);
+    check(buffer, &error);
+    check(buffer_fill_u32(buffer, 0, 3, 64, &error), &error);
+    check(kernel_set_buffer(kernel, "from", buffer, &error), &error);
+    check(kernel_set_buffer(kernel, "sums", buffer, &error), &error);
+    check(kernel_set_local(kernel, "scratch", 64, &error), &error);
+    check(kernel_launch(kernel, 16, 16, &error), &error);
+    u32 sum;
+    check(buffer_download(buffer, 0, &sum, 4, &error), &error);
+    assert_int_equal(sum, 48);
+    assert_true(kernel_seconds(kernel) == 0.0); // not opened for profiling
+    buffer_destroy(buffer);
+    kernel_destroy(kernel);
+    program_destroy(program);
+    device_close(device);
+}
+
+int main(void)
+{
+    Error error;
+    u32 index;
+    Fixture fixture = {.device = NULL};
+    DeviceList *list = device_list_create(&error);
+    if (!list || !device_choose(list, getenv("CLRT_DEVICE"), &index, &error)) {
+        printf("skipped: %s\n", error.text);
+        device_list_destroy(list);
+        return SKIPPED;
+    }
+    fixture.info = list->devices[index];
+    device_list_destroy(list);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate_setup_teardown(runs_a_kernel_by_names, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(gives_local_memory, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(refuses_wrong_arguments, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(reports_a_failed_build, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(keeps_account_of_buffers, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(copies_and_fills_parts, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(wraps_memory_of_the_host, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(refuses_what_does_not_fit, setup, teardown, &fixture),
+        cmocka_unit_test_prestate(bounds_the_threads_of_a_cpu, &fixture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,159 @@
+// The elementary functions of kernels/base: special values, and the same bits for every number of lanes and on
+// every device.
+#include "base_support.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+    Function function;
+    float x, y, expected; // equal in all bits; any NaN for NaN
+} Special;
+
+static const Special specials[] = {
+    { SIN, 0.0f, 0, 0.0f }, { SIN, -0.0f, 0, 0.0f }, { COS, 0.0f, 0, 1.0f },
+    { SIN, 1e30f, 0, 0.0f }, { COS, -1e30f, 0, 1.0f },
+    { SIN, INFINITY, 0, NAN }, { COS, -INFINITY, 0, NAN }, { SIN, NAN, 0, NAN },
+    { ACOS, 1.0f, 0, 0.0f }, { ACOS, 0x1.000002p+0f, 0, 0.0f }, { ACOS, INFINITY, 0, 0.0f },
+    { ACOS, -1.0f, 0, 0x1.921fb6p+1f }, { ACOS, -0x1.000002p+0f, 0, 0x1.921fb6p+1f },
+    { ACOS, 0.0f, 0, 0x1.921fb6p+0f }, { ACOS, -0.0f, 0, 0x1.921fb6p+0f }, { ACOS, NAN, 0, NAN },
+    { ATAN2, 0.0f, 0.0f, 0.0f }, { ATAN2, 0.0f, -0.0f, -0.0f },
+    { ATAN2, -0.0f, 0.0f, 0x1.921fb6p+1f }, { ATAN2, -0.0f, -0.0f, -0x1.921fb6p+1f },
+    { ATAN2, 1.0f, 0.0f, 0.0f }, { ATAN2, 1.0f, -0.0f, -0.0f },
+    { ATAN2, -1.0f, 0.0f, 0x1.921fb6p+1f }, { ATAN2, -1.0f, -0.0f, -0x1.921fb6p+1f },
+    { ATAN2, 0.0f, 1.0f, 0x1.921fb6p+0f }, { ATAN2, -0.0f, -1.0f, -0x1.921fb6p+0f },
+    { ATAN2, 1e-40f, 1e-40f, 0.0f }, { ATAN2, 1e-40f, 1.0f, 0x1.921fb6p+0f },
+    { ATAN2, 3e38f, 1e-38f, 0.0f }, { ATAN2, 1.0f, 1.0f, 0x1.921fb6p-1f },
+    { ATAN2, INFINITY, INFINITY, 0x1.921fb6p-1f }, { ATAN2, -INFINITY, INFINITY, 0x1.2d97c8p+1f },
+    { ATAN2, INFINITY, 1.0f, 0.0f }, { ATAN2, -INFINITY, -1.0f, -0x1.921fb6p+1f },
+    { ATAN2, 1.0f, -INFINITY, -0x1.921fb6p+0f }, { ATAN2, NAN, 1.0f, NAN }, { ATAN2, 1.0f, NAN, NAN },
+    { EXP, 0.0f, 0, 1.0f }, { EXP, -0.0f, 0, 1.0f }, { EXP, 1e-40f, 0, 1.0f }, { EXP, 88.75f, 0, INFINITY },
+    { EXP, -87.5f, 0, 0.0f }, { EXP, INFINITY, 0, INFINITY }, { EXP, -INFINITY, 0, 0.0f }, { EXP, NAN, 0, NAN },
+    { EXP2, 0.0f, 0, 1.0f }, { EXP2, 127.0f, 0, 0x1p+127f }, { EXP2, 128.0f, 0, INFINITY },
+    { EXP2, -126.0f, 0, 0x1p-126f }, { EXP2, -126.5f, 0, 0.0f }, { EXP2, INFINITY, 0, INFINITY },
+    { EXP2, -INFINITY, 0, 0.0f }, { EXP2, NAN, 0, NAN },
+    { LOG, 1.0f, 0, 0.0f }, { LOG, 0.0f, 0, -INFINITY }, { LOG, -0.0f, 0, -INFINITY },
+    { LOG, 1e-40f, 0, -INFINITY }, { LOG, -1.0f, 0, NAN }, { LOG, INFINITY, 0, INFINITY },
+    { LOG, -INFINITY, 0, NAN }, { LOG, NAN, 0, NAN },
+    { LOG2, 1.0f, 0, 0.0f }, { LOG2, 0x1p-126f, 0, -126.0f }, { LOG2, 0x1p+100f, 0, 100.0f },
+    { LOG2, 0.0f, 0, -INFINITY }, { LOG2, -1.0f, 0, NAN }, { LOG2, INFINITY, 0, INFINITY },
+    { POW, 0.0f, 0.0f, 1.0f }, { POW, -0.1f, 0.0f, 1.0f }, { POW, INFINITY, 0.0f, 1.0f },
+    { POW, 0.0f, 5.0f, 0.0f }, { POW, -0.1f, 5.0f, 0.0f }, { POW, -0.0f, 5.0f, 0.0f },
+    { POW, 1.0f, 1e6f, 1.0f }, { POW, 1.0f, FLT_MAX, 1.0f }, { POW, 0.5f, 1e6f, 0.0f },
+    { POW, 0.5f, 126.0f, 0.0f }, { POW, 0.5f, 125.0f, 0x1p-125f }, { POW, 2.0f, 127.0f, 0x1p+127f },
+    { POW, 2.0f, 128.0f, INFINITY }, { POW, 2.0f, FLT_MAX, INFINITY }, { POW, 0.5f, FLT_MAX, 0.0f },
+    { POW, 1e-40f, 1.0f, 0.0f }, { POW, INFINITY, 0.5f, INFINITY }, { POW, NAN, 2.0f, NAN },
+    { POW, 3.0f, 1.0f, 3.0f }, { POW, 9.0f, 0.5f, 3.0f }, { POW, 0.75f, 2.0f, 0.5625f },
+};
+enum { SPECIALS = sizeof specials / sizeof *specials };
+
+static void special_values_are_exact(void **state)
+{
+    Batch *batch = batch_create();
+    for (size_t i = 0; i < SPECIALS; i++) {
+        batch->x[i] = specials[i].x;
+        batch->y[i] = specials[i].y;
+    }
+    for (size_t w = 0; w < WIDTHS; w++) {
+        KernelProgram *program = functions_create(*state, widths[w]);
+        for (Function function = 0; function < FUNCTIONS; function++) {
+            functions_apply(program, function, widths[w], batch);
+            for (size_t i = 0; i < SPECIALS; i++) {
+                const float expected = specials[i].expected;
+                if (specials[i].function != function)
+                    continue;
+                if (isnan(expected) ? !isnan(batch->result[i]) : bits_of(batch->result[i]) != bits_of(expected))
+                    fail_msg("%s(%a, %a) = %a, not %a", function_names[function], (double)batch->x[i],
+                             (double)batch->y[i], (double)batch->result[i], (double)expected);
+            }
+        }
+        kernel_program_destroy(program);
+    }
+    free(batch);
+}
+
+// A mirror highlight is never brighter than its light: a cosine of at most 1, however near, gives at most 1.
+static void power_of_a_cosine_is_at_most_one(void **state)
+{
+    KernelProgram *program = functions_create(*state, 8);
+    Batch *batch = batch_create();
+    static const float exponents[] = { 1e-3f, 1.0f, 50.0f, 1e3f, 1e6f };
+    for (uint32_t i = 0; i < BATCH; i++) {
+        batch->x[i] = from_bits(bits_of(1.0f) - (i < BATCH / 2 ? i : mix(i) % bits_of(1.0f)));
+        batch->y[i] = exponents[i % 5];
+    }
+    functions_apply(program, POW, 8, batch);
+    for (size_t i = 0; i < BATCH; i++)
+        assert_true(batch->result[i] >= 0.0f && batch->result[i] <= 1.0f);
+    free(batch);
+    kernel_program_destroy(program);
+}
+
+// Bit patterns from all over the floats; denormal ones, which devices may flush, become zeros.
+static void fill_with_patterns(Batch *batch)
+{
+    for (uint32_t i = 0; i < BATCH; i++) {
+        // One half any pattern, the other of moderate size, where the functions have something to say.
+        const uint32_t any = i * 4093u, other = mix(i);
+        const float x = from_bits(i & 1u ? any : (any & 0x87ffffffu) | 0x38000000u);
+        const float y = from_bits(i & 2u ? other : (other & 0x87ffffffu) | 0x38000000u);
+        batch->x[i] = fabsf(x) < FLT_MIN ? 0.0f : x;
+        batch->y[i] = fabsf(y) < FLT_MIN ? 0.0f : fabsf(y);
+    }
+}
+
+// FNV-1a over the bits of the results, all NaN alike.
+static uint64_t hash_results(const Batch *batch)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < BATCH; i++) {
+        const uint32_t bits = isnan(batch->result[i]) ? 0x7fc00000u : bits_of(batch->result[i]);
+        for (int byte = 0; byte < 4; byte++)
+            hash = (hash ^ (bits >> 8 * byte & 0xffu)) * 0x100000001b3u;
+    }
+    return hash;
+}
+
+// What every device must give; only a deliberate change of a function changes its number.
+static const uint64_t agreed_hashes[FUNCTIONS] = {
+    0xac5a70a86a6d8fe6, 0xc0c2cec040300fd3, 0x816e730551a8fbea, 0x0fec86e1287d0b74, 0xdb4e49464f68157c,
+    0x0569891f19897bf4, 0xd0d6512a43ef94ff, 0xaf23c84feb78e457, 0xc6fc2b9f9e3d0b35,
+};
+
+static void bits_agree_for_all_lanes_and_devices(void **state)
+{
+    Batch *batch = batch_create();
+    fill_with_patterns(batch);
+    int differences = 0;
+    for (size_t w = 0; w < WIDTHS; w++) {
+        KernelProgram *program = functions_create(*state, widths[w]);
+        for (Function function = 0; function < FUNCTIONS; function++) {
+            functions_apply(program, function, widths[w], batch);
+            const uint64_t hash = hash_results(batch);
+            if (hash != agreed_hashes[function]) {
+                printf("%s with %d lanes: 0x%016llx\n", function_names[function], widths[w], (unsigned long long)hash);
+                differences++;
+            }
+        }
+        kernel_program_destroy(program);
+    }
+    free(batch);
+    assert_int_equal(differences, 0);
+}
+
+int main(void)
+{
+    KernelDevice *device = kernel_device_create();
+    if (!device)
+        return KERNEL_TEST_SKIP;
+    printf("device: %s\n", kernel_device_name(device));
+    const struct CMUnitTest tests[] = {
+        kernel_unit_test(special_values_are_exact, device),
+        kernel_unit_test(power_of_a_cosine_is_at_most_one, device),
+        kernel_unit_test(bits_agree_for_all_lanes_and_devices, device),
+    };
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    kernel_device_destroy(device);
+    return failed;
+}

@@ -1,0 +1,48 @@
+// What the tests of the shapes share: shapes baked and intersected on the device, many rays at a time.
+#ifndef CLRT_TESTS_KERNEL_SHAPES_SUPPORT_H
+#define CLRT_TESTS_KERNEL_SHAPES_SUPPORT_H
+
+#include "harness.h"
+
+#include "layout/bake.h"
+
+// Rays and answers, one place each, as columns of `capacity` floats; capacity is a multiple of 16.
+typedef struct RayTable {
+    size_t capacity, count;
+    float *rays;  // RAY_X columns
+    int *index;   // of the ray's primitive
+    float *hits;  // HIT_X columns
+} RayTable;
+
+enum { RAY_ORG, RAY_DIR = 3, RAY_TMIN = 6, RAY_SELF, RAY_INWARD, RAY_COLUMNS };
+enum {
+    HIT_T, HIT_P, HIT_ERROR = 4, HIT_NG = 7, HIT_U = 10, HIT_V, HIT_U_WHOLE, HIT_V_WHOLE, HIT_B1, HIT_B2,
+    HIT_COLUMNS
+};
+
+RayTable ray_table_create(size_t count);
+void ray_table_destroy(RayTable *table);
+void ray_table_clear(RayTable *table);
+// Adds a ray; false where the table is full.
+bool ray_table_add(RayTable *table, int primitive, const float org[3], const float dir[3]);
+void ray_table_add_self(RayTable *table, int primitive, const float org[3], const float dir[3], bool inward);
+float ray_number(const RayTable *table, size_t i, int column);
+float hit_number(const RayTable *table, size_t i, int column);
+
+// A program with only the given kind (PRIMITIVE_X) present; kind -1: every kind.
+KernelProgram *shapes_program(KernelDevice *device, int kind, int lanes);
+// Fills table->hits. All primitives are of one kind where the program has only one.
+void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primitive *primitives, size_t count);
+
+// Uniform in [0, 1), and in a range; *state is any number.
+double random_unit(uint64_t *state);
+double random_in(uint64_t *state, double low, double high);
+void random_direction(uint64_t *state, double d[3]);
+// 10 to a power that is uniform in [low, high].
+double random_scale(uint64_t *state, double low, double high);
+
+// Distance between two floats in units in the last place of the first.
+double ulps_between(double exact, float x);
+double ulp_of(double x);
+
+#endif

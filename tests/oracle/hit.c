@@ -1,0 +1,153 @@
+#include "hit.h"
+
+/* What rounding can make of a distance from the primitive's surface along this ray. */
+static real tolerance(const Primitive *primitive, const Ray *ray)
+{
+    Vec o = ray->o;
+    return primitive->unit * (primitive->magnitude + fmaxl(fabsl(o.x), fmaxl(fabsl(o.y), fabsl(o.z))));
+}
+
+static bool may_meet(const Primitive *primitive, const Ray *ray)
+{
+    if (!primitive->bounded)
+        return true;
+    Vec f = sub(primitive->bound_center, ray->o);
+    real along = dot(f, ray->d);
+    Vec off = sub(f, scaled(ray->d, along));
+    real radius = primitive->bound_radius + 1e-9L * primitive->magnitude;
+    return dot(off, off) <= radius * radius && along + radius >= 0;
+}
+
+/* All crossings with one primitive ahead of the ray's start; `local` becomes the ray in the shape's space. */
+static int crossings_ahead(const Primitive *primitive, const Ray *ray, Line *local, Crossing *out)
+{
+    if (!may_meet(primitive, ray))
+        return 0;
+    *local = (Line){transform_point(&primitive->to_local, ray->o), transform_vector(&primitive->to_local, ray->d)};
+    Crossing all[CROSSINGS_MAX];
+    int found = shape_crossings(primitive->shape, local, all);
+    real rounding = tolerance(primitive, ray);
+    int count = 0;
+    for (int i = 0; i < found; i++) {
+        const Crossing *c = &all[i];
+        if (!(c->t > 0))
+            continue;
+        if (ray->from == primitive && ray->patch == c->patch && shape_patch_is_flat(primitive->shape, c->patch))
+            continue;
+        /* A start on this surface, or on one that coincides with it: t is 0 but for rounding. What counts is
+         * the distance along the normal, since t itself is vague for a grazing ray. */
+        if (c->t < 1e8L * rounding) {
+            Vec p = add(local->o, scaled(local->d, c->t));
+            Surface surface = shape_surface(primitive->shape, p, c->patch);
+            Vec normal = transform_normal(&primitive->to_local, surface.normal);
+            if (c->t * fabsl(dot(ray->d, normal)) <= rounding)
+                continue;
+        }
+        out[count++] = *c;
+    }
+    return count;
+}
+
+static void fill_hit(const Ray *ray, const Line *local, const Crossing *crossing, Hit *hit)
+{
+    const Transform *to_local = &hit->primitive->to_local;
+    hit->t = crossing->t;
+    hit->patch = crossing->patch;
+    hit->point = add(ray->o, scaled(ray->d, hit->t));
+    hit->local = add(local->o, scaled(local->d, hit->t));
+    hit->surface = shape_surface(hit->primitive->shape, hit->local, hit->patch);
+    hit->normal = transform_normal(to_local, hit->surface.normal);
+    hit->shading = transform_normal(to_local, hit->surface.shading);
+    if (dot(hit->shading, hit->normal) < 0)
+        hit->shading = scaled(hit->shading, -1);
+}
+
+bool hit_closest(const Scene *scene, const Ray *ray, Hit *hit)
+{
+    Line best_local = {0};
+    Crossing best = {INFINITY, 0, false};
+    hit->primitive = NULL;
+    for (size_t i = 0; i < scene->primitive_count; i++) {
+        const Primitive *primitive = &scene->primitives[i];
+        Line local;
+        Crossing crossings[CROSSINGS_MAX];
+        int count = crossings_ahead(primitive, ray, &local, crossings);
+        for (int k = 0; k < count; k++) {
+            /* Equal but for rounding is a tie, and the earlier primitive keeps it. */
+            real tie = hit->primitive == primitive ? 0 : tolerance(primitive, ray) + 1e-15L * crossings[k].t;
+            if (!(crossings[k].t + tie < best.t))
+                continue;
+            best = crossings[k];
+            best_local = local;
+            hit->primitive = primitive;
+        }
+    }
+    if (hit->primitive == NULL)
+        return false;
+    fill_hit(ray, &best_local, &best, hit);
+    return true;
+}
+
+/* Triangles whose shared edge the ray went through. */
+typedef struct EdgeList {
+    struct {
+        const Primitive *primitive;
+        real t;
+    } items[32];
+    int count;
+} EdgeList;
+
+static bool same_point(Vec a, Vec b)
+{
+    return length(sub(a, b)) <= 1e-14L * (length(a) + length(b));
+}
+
+static int shared_vertices(const Primitive *a, const Primitive *b)
+{
+    int shared = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            shared += same_point(transform_point(&a->to_world, a->shape->vertices[i]),
+                                 transform_point(&b->to_world, b->shape->vertices[k]));
+    return shared;
+}
+
+/* Whether this crossing of an edge has been counted for the neighbour; else it is noted. */
+static bool already_crossed(EdgeList *edges, const Primitive *primitive, const Crossing *crossing)
+{
+    if (!crossing->on_edge)
+        return false;
+    for (int i = 0; i < edges->count; i++) {
+        bool same_t = fabsl(edges->items[i].t - crossing->t) <= 1e-12L * crossing->t;
+        int shared = same_t ? shared_vertices(edges->items[i].primitive, primitive) : 0;
+        if (shared == 1 || shared == 2)
+            return true;
+    }
+    if (edges->count < 32) {
+        edges->items[edges->count].primitive = primitive;
+        edges->items[edges->count++].t = crossing->t;
+    }
+    return false;
+}
+
+Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance)
+{
+    Vec product = grey(1);
+    EdgeList edges = {.count = 0};
+    for (size_t i = 0; i < scene->primitive_count; i++) {
+        const Primitive *primitive = &scene->primitives[i];
+        Line local;
+        Crossing crossings[CROSSINGS_MAX];
+        int count = crossings_ahead(primitive, ray, &local, crossings);
+        for (int k = 0; k < count; k++) {
+            if (crossings[k].t >= distance - tolerance(primitive, ray))
+                continue;
+            if (already_crossed(&edges, primitive, &crossings[k]))
+                continue;
+            product = times(product, primitive->material->transmit);
+            if (largest(product) == 0)
+                return product;
+        }
+    }
+    return product;
+}

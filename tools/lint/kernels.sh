@@ -1,0 +1,55 @@
+#!/bin/sh
+# kernels.sh BUNDLE SOURCE_DIR: compiles the flattened kernels with clang, warnings as errors, with all
+# features off, all on, and each alone, as a CPU and as a GPU take them. BUNDLE is the clrt-bundle program.
+# Exit status: 0 clean, 1 complaints, 77 skipped because something is missing.
+set -u
+bundle=$1
+source=$2
+
+clang=$(command -v clang || ls /usr/bin/clang-[0-9]* 2>/dev/null | sort -V | tail -n 1)
+if [ -z "$clang" ]; then
+    echo "skipped: no clang"
+    exit 77
+fi
+if [ ! -f "$source/kernels/program.cl" ]; then
+    echo "skipped: no kernels/program.cl"
+    exit 77
+fi
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+"$bundle" "$source/kernels" program.cl "$work/program.cl" || exit 1
+
+features=$(sed -n 's/^ *FEATURE(\([A-Z0-9_]*\),.*/\1/p' "$source/kernels/shared/features.def")
+if [ -z "$features" ]; then
+    echo "error: no FEATURE(NAME, \"meaning\") lines in kernels/shared/features.def"
+    exit 1
+fi
+
+# definitions NAME...: -D text of all features, on for those named.
+definitions() {
+    for feature in $features; do
+        case " $* " in
+            *" $feature "*) printf ' -DHAS_%s=1' "$feature" ;;
+            *) printf ' -DHAS_%s=0' "$feature" ;;
+        esac
+    done
+}
+
+# Functions and parameters that only some features use are no fault.
+check='"$1" -x cl -cl-std=CL1.2 -fsyntax-only -Xclang -finclude-default-header -Wall -Wextra -Wundef -Werror \
+    -Wno-unused-function -Wno-unused-parameter $3 "$2" 2>"$2.$$.log" ||
+    { echo "with$3"; cat "$2.$$.log"; exit 1; }'
+for machine in "-DLANES=8 -DBATCH=32 -DGROUP=1" "-DLANES=1 -DBATCH=1 -DGROUP=64"; do
+    echo " $machine$(definitions)"
+    echo " $machine$(definitions $features)"
+    for feature in $features; do
+        echo " $machine$(definitions "$feature")"
+    done
+done >"$work/configurations"
+tr '\n' '\0' <"$work/configurations" |
+    xargs -0 -n 1 -P "$(nproc 2>/dev/null || echo 1)" \
+        sh -c "$check" check "$clang" "$work/program.cl" >"$work/log"
+status=$?
+head -n 100 "$work/log"
+echo "$(wc -l <"$work/configurations") configurations compiled by $clang"
+[ "$status" -eq 0 ]
