@@ -59,8 +59,8 @@ static bool build(Program *program, const char *options, Error *error)
     program->build_seconds = seconds_now() - start;
     program->log = read_log(program);
     if (status != CL_SUCCESS)
-        status_error(error, status, "clBuildProgram", "%s, options %s\n%s", device->info.name, all,
-                     program->log ? first_error(program->log) : "");
+        status_error(error, status, "clBuildProgram", "%s:\n%s\noptions: %s", device->info.name,
+                     program->log ? first_error(program->log) : "", all);
     free(all);
     return status == CL_SUCCESS;
 }

@@ -9,7 +9,8 @@ Image *image_create(u32 width, u32 height, u32 channels, Error *error)
     Image *image = calloc(1, sizeof *image);
     size_t count;
     const bool overflow = __builtin_mul_overflow((size_t)width, height, &count) ||
-                          __builtin_mul_overflow(count, channels, &count) || count > SIZE_MAX / 2 / sizeof(f32);
+                          __builtin_mul_overflow(count, channels, &count) ||
+                          count > SIZE_MAX / 2 / sizeof(f32);
     if (image && !overflow)
         image->values = calloc(count, sizeof(f32));
     if (!image || !image->values) {

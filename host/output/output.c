@@ -55,8 +55,9 @@ static Format path_format(const char *path)
     if (same_suffix(suffix, ".exr") || same_suffix(suffix, ".hdr"))
         return FORMAT_LATER;
     struct stat file;
-    const bool special = !*suffix && stat(path, &file) == 0 && !S_ISREG(file.st_mode) && !S_ISDIR(file.st_mode);
-    return special ? FORMAT_PNG : FORMAT_UNKNOWN;
+    if (*suffix || stat(path, &file) != 0 || S_ISREG(file.st_mode) || S_ISDIR(file.st_mode))
+        return FORMAT_UNKNOWN;
+    return FORMAT_PNG;
 }
 
 bool output_ignores_display_settings(const char *path)
@@ -67,8 +68,8 @@ bool output_ignores_display_settings(const char *path)
 static bool check_format(Format format, const char *path, Error *error)
 {
     if (format == FORMAT_LATER)
-        return error_set(error, ERROR_USAGE, "%s: %s is not supported yet; the output may be .png or .pfm", path,
-                         path_suffix(path));
+        return error_set(error, ERROR_USAGE, "%s: %s is not supported yet; the output may be .png or .pfm",
+                         path, path_suffix(path));
     if (format == FORMAT_UNKNOWN)
         return error_set(error, ERROR_USAGE, "%s: the suffix says the format and must be .png or .pfm", path);
     return true;
@@ -112,7 +113,10 @@ Output *output_open(const char *path, const OutputOptions *options, u32 width, u
     output->width = width;
     output->height = height;
     output->sink = sink_open(path, format == FORMAT_PFM, error);
-    if (!output->sink || !(format == FORMAT_PNG ? open_png(output, options, error) : open_pfm(output, error))) {
+    bool done = output->sink != NULL;
+    if (done)
+        done = format == FORMAT_PNG ? open_png(output, options, error) : open_pfm(output, error);
+    if (!done) {
         output_abort(output);
         return NULL;
     }

@@ -12,11 +12,11 @@ struct PngStream {
     Error *error; // of the call under way
 };
 
-// Level and filter, measured with libpng 1.6.39 and zlib 1.2.13 on one core of an EPYC on a ray-traced picture
-// of three shapes on a checkered floor, 800 x 600, 8 bits (best of 4, milliseconds and KiB; the same picture
-// antialiased gives the same order):
+// Level and filter, measured with libpng 1.6.39 and zlib 1.2.13 on one core of an EPYC on a ray-traced
+// picture of three shapes on a checkered floor, 800 x 600, 8 bits (best of 4, milliseconds and KiB; the same
+// picture antialiased gives the same order):
 //   level 1: none 13 186, sub 13 144, up 18 150, average 15 157, Paeth 16 149, libpng's choice 28 149
-//   level 2: sub 17 138    level 3: sub 24 127    level 6: sub 56 101    level 1, run lengths only: sub 13 138
+//   level 2: sub 17 138; level 3: sub 24 127; level 6: sub 56 101; level 1, run lengths only: sub 13 138
 enum { LEVEL = 1, FILTER = PNG_FILTER_SUB };
 
 static void on_error(png_structp png, png_const_charp message)
@@ -68,7 +68,8 @@ static void set_texts(PngStream *stream, png_textp texts, const OutputOptions *o
     png_set_text(stream->png, stream->info, texts, (int)options->text_count);
 }
 
-static bool write_header(PngStream *stream, png_textp texts, const OutputOptions *options, u32 width, u32 height)
+static bool write_header(PngStream *stream, png_textp texts, const OutputOptions *options, u32 width,
+                         u32 height)
 {
     png_structp png = stream->png;
     if (setjmp(png_jmpbuf(png)))

@@ -9,9 +9,9 @@
 
 // Floats that are not negative are in the order of their bits. So a monotone curve is a list of
 // thresholds: the bits of the first float of each level. The levels of all curves are monotone: the curves
-// are, as far as a level can tell (image/color.h), and the steps between neighbouring floats are large beside
-// the rounding of a double. So bisection finds each threshold exactly. A table over the high bits says the level at the start
-// of each cell; most cells have one threshold at the most.
+// are, as far as a level can tell (image/color.h), and the steps between neighbouring floats are large
+// beside the rounding of a double. So bisection finds each threshold exactly. A table over the high bits
+// says the level at the start of each cell; most cells have one threshold at the most.
 struct Quantizer {
     u32 bits;
     u32 lowest, highest; // bits of the first floats of level 1 and of the last level

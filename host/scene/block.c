@@ -48,7 +48,8 @@ static void refuse_loose_value(Parser *parser, const Block *block, const Propert
         parser_error(parser, &parser->token, "unexpected %s; '%s' takes %s", shown, last->name,
                      value_takes(last, takes));
     else
-        parser_error(parser, &parser->token, "expected a property of %s, found %s", block->type->title, shown);
+        parser_error(parser, &parser->token, "expected a property of %s, found %s", block->type->title,
+                     shown);
     parser_skip_values(parser);
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/text.h"
 
 enum {
     LINE_CHARACTERS_MAX = 160,
@@ -171,9 +172,19 @@ u32 diagnostics_warning_count(const Diagnostics *diagnostics)
 
 static void print_clean(const char *text, FILE *stream)
 {
-    for (; *text; ++text) {
-        const unsigned char c = (unsigned char)*text;
-        fputc((c < 0x20 && c != '\t') || c == 0x7F ? '?' : c, stream);
+    const char *end = text + strlen(text);
+    const char *invalid = text + text_find_invalid_utf8(text, (size_t)(end - text));
+    for (const char *p = text; p < end; ++p) {
+        const unsigned char c = (unsigned char)*p;
+        if (p == invalid) {
+            fputc('?', stream);
+            invalid = p + 1 + text_find_invalid_utf8(p + 1, (size_t)(end - p - 1));
+        } else if (c == 0xC2 && (unsigned char)p[1] < 0xA0) { // U+0080 to U+009F
+            fputc('?', stream);
+            ++p;
+        } else {
+            fputc((c < 0x20 && c != '\t') || c == 0x7F ? '?' : c, stream);
+        }
     }
 }
 

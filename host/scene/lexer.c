@@ -87,11 +87,12 @@ static void skip_space(Lexer *lexer)
     }
 }
 
-// The string at the cursor; one that does not close ends before the end of its line.
+// The string at the cursor. One that does not close on its line is taken to end before the next brace,
+// which more probably belongs to a block.
 static void read_string(const Lexer *lexer, Token *token)
 {
     token->kind = TOKEN_STRING;
-    const char *p = lexer->cursor + 1;
+    const char *first = lexer->cursor + 1, *p = first;
     for (; p < lexer->end && *p != '"' && *p != '\n'; ++p) {
         const unsigned char c = (unsigned char)*p;
         if (c == '\\') {
@@ -99,17 +100,18 @@ static void read_string(const Lexer *lexer, Token *token)
                 token->fault = FAULT_ESCAPE;
             else
                 ++p;
-        } else if ((c < 0x20 && c != '\t' && !(c == '\r' && p[1] == '\n')) || c == 0x7F) {
+        } else if ((c < 0x20 && c != '\t') || c == 0x7F) {
             token->fault = FAULT_CONTROL;
         }
     }
     if (p < lexer->end && *p == '"') {
-        ++p;
-    } else {
-        token->fault = FAULT_UNCLOSED;
-        if (p[-1] == '\r')
-            --p;
+        token->length = (u32)(p + 1 - lexer->cursor);
+        return;
     }
+    token->fault = FAULT_UNCLOSED;
+    p = first;
+    while (p < lexer->end && *p != '\n' && *p != '\r' && *p != '{' && *p != '}')
+        ++p;
     token->length = (u32)(p - lexer->cursor);
 }
 
@@ -152,38 +154,39 @@ static void read_word(const Lexer *lexer, Token *token)
     }
 }
 
-Token lexer_next(Lexer *lexer)
+// In place, because to return a struct just written piece by piece costs more than to fill it.
+void lexer_next(Lexer *lexer, Token *token)
 {
     skip_space(lexer);
-    Token token = {.kind = TOKEN_END,
-                   .text = lexer->cursor,
-                   .line_text = lexer->line_text,
-                   .line = lexer->line,
-                   .column = (u32)(lexer->cursor - lexer->origin) + 1};
-    if (lexer->cursor == lexer->end)
-        return token;
+    token->fault = FAULT_NONE;
+    token->text = lexer->cursor;
+    token->line_text = lexer->line_text;
+    token->line = lexer->line;
+    token->column = (u32)(lexer->cursor - lexer->origin) + 1;
     const char c = *lexer->cursor;
-    if (c == '{' || c == '}') {
-        token.kind = c == '{' ? TOKEN_OPEN : TOKEN_CLOSE;
-        token.length = 1;
+    if (lexer->cursor == lexer->end) {
+        token->kind = TOKEN_END;
+        token->length = 0;
+    } else if (c == '{' || c == '}') {
+        token->kind = c == '{' ? TOKEN_OPEN : TOKEN_CLOSE;
+        token->length = 1;
     } else if (c == '"') {
-        read_string(lexer, &token);
+        read_string(lexer, token);
     } else {
-        read_word(lexer, &token);
+        read_word(lexer, token);
     }
-    lexer->cursor += token.length;
-    token.width = token.length;
-    if (token.kind == TOKEN_STRING || token.fault != FAULT_NONE) { // else it is ASCII
-        move_origin(lexer, token.text, token.length);
-        token.width = (u32)text_count_characters(token.text, token.length);
+    lexer->cursor += token->length;
+    token->width = token->length;
+    if (token->kind == TOKEN_STRING || token->fault != FAULT_NONE) { // else it is ASCII
+        move_origin(lexer, token->text, token->length);
+        token->width = (u32)text_count_characters(token->text, token->length);
     }
-    return token;
 }
 
 bool token_is(const Token *token, const char *name)
 {
-    return token->kind == TOKEN_NAME && token->text[0] == name[0] && strncmp(token->text, name, token->length) == 0 &&
-           name[token->length] == 0;
+    return token->kind == TOKEN_NAME && token->text[0] == name[0] &&
+           strncmp(token->text, name, token->length) == 0 && name[token->length] == 0;
 }
 
 size_t token_unescape(const Token *token, char *text)

@@ -46,8 +46,8 @@ typedef struct Lexer {
 // text[length] must be 0, length at most FILE_BYTES_MAX; a leading byte-order mark is skipped.
 Lexer lexer_begin(const char *text, size_t length);
 
-// The next token; TOKEN_END at the end, again and again.
-Token lexer_next(Lexer *lexer);
+// Stores the next token; TOKEN_END at the end, again and again.
+void lexer_next(Lexer *lexer, Token *token);
 
 bool token_is(const Token *token, const char *name);
 

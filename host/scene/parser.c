@@ -50,8 +50,6 @@ static void report_fault(Parser *parser, const Token *token)
         [FAULT_ESCAPE] = "string %s has a '\\' that is not before '\"' or another '\\'",
         [FAULT_CONTROL] = "string %s has a control character",
     };
-    if (token->fault == FAULT_NONE)
-        return;
     char shown[TOKEN_SHOWN_MAX];
     Token place = *token;
     place.fault = FAULT_NONE;
@@ -61,8 +59,9 @@ static void report_fault(Parser *parser, const Token *token)
 void parser_advance(Parser *parser)
 {
     do {
-        parser->token = lexer_next(&parser->input->lexer);
-        report_fault(parser, &parser->token);
+        lexer_next(&parser->input->lexer, &parser->token);
+        if (parser->token.fault != FAULT_NONE)
+            report_fault(parser, &parser->token);
     } while (parser->token.kind == TOKEN_JUNK);
 }
 

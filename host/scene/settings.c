@@ -106,7 +106,8 @@ const BlockType RENDER_BLOCK = BLOCK_TYPE("render", RENDER_PROPERTIES, NULL);
 static bool read_tone_map(Parser *parser, const Property *property, const Token *name, void *value)
 {
     static const Property word = {"tone_map", VALUE_WORD, 0, .words = TONE_MAPS};
-    static const Property white = {"tone_map reinhard_extended", VALUE_NUMBERS, 0, RANGE_POSITIVE, .count = 1};
+    static const Property white = {"tone_map reinhard_extended", VALUE_NUMBERS, 0, RANGE_POSITIVE,
+                                   .count = 1};
     (void)property;
     (void)value;
     OutputSettings *output = &parser->scene->output;

@@ -53,7 +53,8 @@ bool statement_begins(const Parser *parser)
     if (!statement)
         return false;
     Lexer lexer = parser->input->lexer; // a copy: nothing is consumed
-    Token next = lexer_next(&lexer);
+    Token next;
+    lexer_next(&lexer, &next);
     u32 names = 0;
     switch (statement->form) {
     case FORM_VALUE: return next.kind == TOKEN_NUMBER || next.kind == TOKEN_STRING;
@@ -63,7 +64,7 @@ bool statement_begins(const Parser *parser)
     case FORM_NAME_NAME_BLOCK: names = 2; break;
     }
     for (; names > 0 && next.kind == TOKEN_NAME; --names)
-        next = lexer_next(&lexer);
+        lexer_next(&lexer, &next);
     return names == 0 && next.kind == TOKEN_OPEN;
 }
 

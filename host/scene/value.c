@@ -45,7 +45,7 @@ static bool takes_color(const Property *property)
     return property->kind == VALUE_COLOR || property->kind == VALUE_COLOR_OR_TEXTURE;
 }
 
-static const char *const SWITCH_WORDS[] = {"off", "on", NULL};
+static const char *const SWITCH_WORDS[] = {"on", "off", NULL};
 
 static const char *const *words_of(const Property *property)
 {
@@ -301,7 +301,7 @@ bool value_read(Parser *parser, const Property *property, const Token *name, voi
     case VALUE_SWITCH:
         if (!read_word(parser, property, name, &word))
             return false;
-        *(bool *)value = word != 0;
+        *(bool *)value = word == 0;
         return true;
     case VALUE_WORD:
         if (!read_word(parser, property, name, &word))

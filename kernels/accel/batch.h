@@ -38,7 +38,6 @@ typedef struct {
 
 // What a batch looks for and has found; the same in every space, because t is.
 typedef struct {
-    real tmin[BATCH];     // hits have t > tmin, or t = tmin on a primitive after last_x in the order of ties
     real tfar[BATCH];     // closest so far, or the end of the ray
     int self[BATCH];      // 2 * index of the primitive the ray starts on + (1 where it starts inward); -1
     int primitive[BATCH]; // hit, or NO_HIT
@@ -47,6 +46,7 @@ typedef struct {
     int instance[BATCH]; // index of the INSTANCE primitive of the hit, or NO_HIT
 #endif
 #if HAS_TRANSMITTANCE
+    real tmin[BATCH];          // hits have t > tmin, or t = tmin on a primitive after last_x in the order of ties
     int last_primitive[BATCH]; // surface that the ray has crossed at tmin, or NO_HIT
     int last_instance[BATCH];
 #endif
@@ -119,7 +119,7 @@ static inline vf tmin_after_last(const Hierarchy *scene, const BatchHits *hits, 
 #endif
 
 // Tests one primitive against the rays of mask. Rays that it stops are reported in the result.
-static inline uint test_primitive(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+OUTLINE uint test_primitive(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
                                   int primitive, int instance)
 {
     global const Primitive *record = &scene->primitives[primitive];
@@ -173,7 +173,7 @@ static inline uint test_primitive(const Hierarchy *scene, const BatchRays *rays,
 // Closest hits of the rays in mask (any_hit false), or any hit (true: then only the fact counts and tfar,
 // primitive and instance of a ray that hit are those of some hit). opaque_only leaves out primitives that
 // may let light through. tfar, tmin and self are set by the caller, primitive to NO_HIT.
-static inline void traverse(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+OUTLINE void traverse(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
                             const bool any_hit, const bool opaque_only)
 {
 #if HAS_PLANE

@@ -5,6 +5,9 @@
 // Depth of the hierarchy times the siblings that a level can leave behind.
 #define STACK_SIZE (BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1)
 
+// From so many rays of a batch on it pays to test box by box.
+#define PACKET_RAYS 12
+
 typedef union { int8 v; int s[8]; } Int8;
 typedef union { float8 v; float s[8]; } Float8;
 
@@ -48,16 +51,20 @@ static inline void prepare_slabs(const BatchRays *rays, BatchSlabs *slabs)
     }
 }
 
-// Tests the children of a node for the rays of mask and pushes those that are hit, nearest on top.
-// A NaN (a plane through the origin of a ray that runs within it) leaves its slab open on that side.
-static inline void push_children(global const BvhNode *node, const BatchRays *rays, const BatchSlabs *slabs,
-                                 const BatchHits *hits, uint mask, Stack *stack)
+// Which rays of a batch reach which child of a node, and how near the nearest of them is to it.
+typedef struct {
+    Int8 mask;
+    Float8 near;
+} ChildHits;
+
+// One ray at a time against eight boxes: what it costs goes with the number of rays.
+static inline void test_children_by_ray(global const BvhNode *node, const BatchRays *rays,
+                                        const BatchSlabs *slabs, const BatchHits *hits, uint mask,
+                                        ChildHits *children)
 {
     global const float *planes = node->lower_x;
-    Int8 child_mask;
-    Float8 child_near;
-    child_mask.v = (int8)(0);
-    child_near.v = (float8)(INFINITY);
+    children->mask.v = (int8)(0);
+    children->near.v = (float8)(INFINITY);
     for (uint rest = mask; rest; rest &= rest - 1) {
         const int k = lowest_bit(rest);
         const int x = slabs->near_x[k], y = slabs->near_y[k], z = slabs->near_z[k];
@@ -75,14 +82,67 @@ static inline void push_children(global const BvhNode *node, const BatchRays *ra
         tfar = far_y < tfar ? far_y : tfar;
         tfar = far_z < tfar ? far_z : tfar;
         const int8 hit = tnear <= tfar * BOX_SLACK;
-        child_mask.v |= hit & (int8)((int)(1u << k));
+        children->mask.v |= hit & (int8)((int)(1u << k));
         const float8 seen = hit ? tnear : (float8)(INFINITY);
-        child_near.v = seen < child_near.v ? seen : child_near.v;
+        children->near.v = seen < children->near.v ? seen : children->near.v;
     }
+}
+
+#if LANES > 1
+// One box at a time against LANES rays, the same arithmetic: what it costs goes with the number of children.
+static inline void test_children_by_box(global const BvhNode *node, const BatchRays *rays,
+                                        const BatchSlabs *slabs, const BatchHits *hits, uint mask,
+                                        ChildHits *children)
+{
+    children->mask.v = (int8)(0);
+    children->near.v = (float8)(INFINITY);
+    for (int first = 0; first < BATCH; first += LANES) {
+        const uint bits = mask >> first & ((1u << LANES) - 1u);
+        if (!bits)
+            continue;
+        const vf org_x = VF_LOAD(&rays->org_x[first]), inv_x = VF_LOAD(&slabs->inv_x[first]);
+        const vf org_y = VF_LOAD(&rays->org_y[first]), inv_y = VF_LOAD(&slabs->inv_y[first]);
+        const vf org_z = VF_LOAD(&rays->org_z[first]), inv_z = VF_LOAD(&slabs->inv_z[first]);
+        const vm back_x = inv_x < (vf)(0.0f), back_y = inv_y < (vf)(0.0f), back_z = inv_z < (vf)(0.0f);
+        const vf end = VF_LOAD(&hits->tfar[first]);
+        for (int slot = 0; slot < BVH_WIDTH && node->lower_x[slot] <= node->upper_x[slot]; slot++) {
+            const vf low_x = (node->lower_x[slot] - org_x) * inv_x, high_x = (node->upper_x[slot] - org_x) * inv_x;
+            const vf low_y = (node->lower_y[slot] - org_y) * inv_y, high_y = (node->upper_y[slot] - org_y) * inv_y;
+            const vf low_z = (node->lower_z[slot] - org_z) * inv_z, high_z = (node->upper_z[slot] - org_z) * inv_z;
+            vf tnear = vf_max(back_x ? high_x : low_x, (vf)(0.0f)), tfar = vf_min(back_x ? low_x : high_x, end);
+            tnear = vf_max(back_y ? high_y : low_y, tnear);
+            tfar = vf_min(back_y ? low_y : high_y, tfar);
+            tnear = vf_max(back_z ? high_z : low_z, tnear);
+            tfar = vf_min(back_z ? low_z : high_z, tfar);
+            const uint hit = vm_bits(tnear <= tfar * BOX_SLACK) & bits;
+            if (!hit)
+                continue;
+            children->mask.s[slot] |= (int)(hit << first);
+            // The order of the children decides speed alone: any ray's distance will do.
+            LanesF seen;
+            seen.v = tnear;
+            children->near.s[slot] = min(children->near.s[slot], seen.s[lowest_bit(hit)]);
+        }
+    }
+}
+#endif
+
+// Tests the children of a node for the rays of mask and pushes those that are hit, nearest on top.
+// A NaN (a plane through the origin of a ray that runs within it) leaves its slab open on that side.
+OUTLINE void push_children(global const BvhNode *node, const BatchRays *rays, const BatchSlabs *slabs,
+                           const BatchHits *hits, uint mask, Stack *stack)
+{
+    ChildHits children;
+#if LANES > 1
+    if (popcount(mask) >= PACKET_RAYS)
+        test_children_by_box(node, rays, slabs, hits, mask, &children);
+    else
+#endif
+        test_children_by_ray(node, rays, slabs, hits, mask, &children);
     const int bottom = stack->size;
-    for (uint rest = sign_bits8(child_mask.v != (int8)(0)); rest; rest &= rest - 1) {
+    for (uint rest = sign_bits8(children.mask.v != (int8)(0)); rest; rest &= rest - 1) {
         const int slot = lowest_bit(rest);
-        const float near = child_near.s[slot];
+        const float near = children.near.s[slot];
         int at = stack->size++;
         for (; at > bottom && stack->near[at - 1] < near; at--) {
             stack->node[at] = stack->node[at - 1];
@@ -90,7 +150,7 @@ static inline void push_children(global const BvhNode *node, const BatchRays *ra
             stack->near[at] = stack->near[at - 1];
         }
         stack->node[at] = node->child[slot];
-        stack->mask[at] = (uint)child_mask.s[slot];
+        stack->mask[at] = (uint)children.mask.s[slot];
         stack->near[at] = near;
     }
 }

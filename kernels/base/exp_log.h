@@ -135,8 +135,8 @@ static inline vf2 vf_log2_exact(vf x)
     return fast_two_sum(sum.hi, sum.lo + (lead.lo + rest));
 }
 
-// x to the power y for finite y >= 0, within 2 ulp. pow(x, 0) = 1 for every x; otherwise negative x counts as 0
-// and NaN gives NaN. Results below 2^-126 (1 + 2^-17) may be 0.
+// x to the power y for finite y >= 0, within 2 ulp. pow(x, 0) = 1 for every x; otherwise negative x counts
+// as 0 and NaN gives NaN. Results below 2^-126 (1 + 2^-17) may be 0, those above 2^128 (1 - 2^-17) infinite.
 static inline vf vf_pow(vf x, vf y)
 {
     const vf2 logarithm = vf_log2_exact(x);

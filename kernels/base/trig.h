@@ -21,8 +21,8 @@
 
 typedef struct { vf sine, cosine; } SineCosine;
 
-// Within 1.55 ulp for |x| <= 2^17 radians; of -0 the sine is 0. Beyond, where the floats are too far apart to tell a direction, the
-// sine is 0 and the cosine 1; infinities and NaN give NaN.
+// Within 1.55 ulp for |x| <= 2^17 radians; of -0 the sine is 0. Beyond, where the floats are too far apart to
+// tell a direction, the sine is 0 and the cosine 1; infinities and NaN give NaN.
 // Reduction by multiples of pi/2 in three parts: Cody and Waite, "Software Manual for the Elementary
 // Functions", 1980, with fma as in Muller et al., "Handbook of Floating-Point Arithmetic", 2018, 11.2.
 static inline SineCosine vf_sincos(vf x)

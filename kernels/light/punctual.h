@@ -15,7 +15,7 @@ typedef struct {
 } LightSample;
 
 // The light as point sees it. A point at the light's very position receives nothing.
-static inline LightSample light_sample(global const LightRecord *light, v3 point)
+OUTLINE LightSample light_sample(global const LightRecord *light, v3 point)
 {
     LightSample sample;
     vf gain = (vf)(1.0f);

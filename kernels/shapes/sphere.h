@@ -5,9 +5,6 @@
 
 #include "shapes/roots.h"
 #include "shapes/surface.h"
-#if HAS_UV
-#include "base/trig.h"
-#endif
 
 #if HAS_SPHERE || HAS_ELLIPSOID
 // |f + t d| = r. From afar the constant term belongs to the closest point; close by it is factored, which
@@ -68,9 +65,12 @@ static inline vf giant_value(const PrimitiveLanes *p, v3 at)
 
 static inline vf intersect_giant_sphere(const PrimitiveLanes *p, const RayLanes *ray)
 {
-    const vf c = ray->self ? (vf)(0.0f) : giant_value(p, ray->org);
-    return solid_hit(ray, quadratic_roots(v3_dot(ray->dir, ray->dir),
-                                          v3_dot(v3_sub(ray->org, p->c), ray->dir), c));
+    const vf dd = v3_dot(ray->dir, ray->dir);
+    v3 f = v3_sub(ray->org, p->c);
+    const vf shift = closest_shift(&f, ray->dir, dd, 16.0f * p->p0 * p->p0);
+    const vf c = ray->self ? (vf)(0.0f) : giant_value(p, v3_fma(ray->dir, shift, ray->org));
+    const Interval roots = quadratic_roots(dd, v3_dot(f, ray->dir), c);
+    return solid_hit(ray, interval_make(shift + roots.near, shift + roots.far));
 }
 
 static inline void surface_giant_sphere(const PrimitiveLanes *p, const RayLanes *ray, vf t, SurfaceLanes *s)

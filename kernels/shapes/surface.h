@@ -4,6 +4,9 @@
 
 #include "base/offset.h"
 #include "base/ray.h"
+#if HAS_UV
+#include "base/trig.h"
+#endif
 
 // All in the space of the primitive.
 typedef struct {
@@ -37,6 +40,14 @@ static inline void surface_uv(SurfaceLanes *s, vf u, vf v)
 
 // For coordinates that are in [0, 1] but for rounding: the last cell of a texture ends before 1.
 static inline vf uv_clamp(vf x) { return vf_clamp(x, 0.0f, 0.99999994f); }
+
+// The angle of (x, y) in turns, in [0, 1).
+static inline vf uv_turn(vf y, vf x)
+{
+    const vf turn = vf_atan2(y, x) * 0.15915494f;
+    const vf positive = turn < (vf)(0.0f) ? turn + 1.0f : turn;
+    return positive >= (vf)(1.0f) ? (vf)(0.0f) : positive;
+}
 #endif
 
 // Carries a surface out of the space of an instanced object, q = A (p - c) given as `map`, to the space of

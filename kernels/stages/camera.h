@@ -17,7 +17,7 @@ static inline v3 v3_from(f32x4 v) { return v3_make((vf)(v.x), (vf)(v.y), (vf)(v.
 // Starts sample number `sample` of the pixels in the lanes of m. (left, top): the tile's first pixel.
 // Offsets count from the middle of the image in pixels, whole and fraction apart: the whole part is exact
 // and each coordinate is rounded once, at any width.
-static inline void camera_ray(const State *s, constant RenderParams *params, int left, int top,
+OUTLINE void camera_ray(const State *s, constant RenderParams *params, int left, int top,
                               const Slots *slots, vi sample, vm m)
 {
     const vi x = slot_x(slots->index) + left, y = slot_y(slots->index) + top;

@@ -19,7 +19,7 @@ static inline void film_add_channel(const State *s, uint channel, const Slots *s
 #endif
 
 // Takes over the finished sample of the slots of m.
-static inline void film_add(const State *s, const Slots *slots, vm m)
+OUTLINE void film_add(const State *s, const Slots *slots, vm m)
 {
     const v3 radiance = state_load3(s, RADIANCE, slots);
 #if HAS_SAMPLES

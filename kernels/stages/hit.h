@@ -71,7 +71,7 @@ static inline v3 carry_normal(const PrimitiveLanes *map, v3 n)
 }
 
 // Normals and texture coordinates that vertices bring along, in the lanes that have them.
-static inline void hit_interpolate(const Shading *shading, vi extra, vm has, const SurfaceLanes *surface,
+OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, const SurfaceLanes *surface,
                                    v3 *normal, Hit *hit)
 {
     const Row row = row_make(shading->extras, has ? extra : (vi)(0), EXTRA_NUMBERS);
@@ -88,7 +88,7 @@ static inline void hit_interpolate(const Shading *shading, vi extra, vm has, con
 #endif
 
 // The surface at distance t along the rays of the lanes. Lanes without a hit give numbers without meaning.
-static inline Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 dir, vf t, vi primitive,
+OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 dir, vf t, vi primitive,
                            vi instance)
 {
     Hit hit;
@@ -161,7 +161,7 @@ static inline Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 or
 }
 
 // A color of the material, number k of its record, or what the texture of index `texture` gives instead.
-static inline v3 hit_color(const Hit *hit, const Shading *shading, int k, vi texture)
+OUTLINE v3 hit_color(const Hit *hit, const Shading *shading, int k, vi texture)
 {
     v3 color = row_real3(&hit->material, k);
 #if HAS_CHECKER || HAS_CHECKER3D

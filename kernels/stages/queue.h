@@ -18,7 +18,7 @@
 
 // Copies to `to` those of the count slots at `from` that have a bit of wanted in FLAGS, in order; returns how
 // many, the same in every work-item. scratch: GROUP numbers.
-static inline uint queue_compact(const State *s, global const int *from, uint count, int wanted,
+OUTLINE uint queue_compact(const State *s, global const int *from, uint count, int wanted,
                                  global int *to, local uint *scratch)
 {
     uint total = 0;

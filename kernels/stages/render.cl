@@ -10,7 +10,7 @@
 
 // Puts the next ray in flight in each slot of the queue: the one that follows, a parked one, or the camera
 // ray of the next sample. Returns the length of the queue, compacted.
-static inline uint advance(const State *s, constant RenderParams *params, int left, int top, uint count,
+OUTLINE uint advance(const State *s, constant RenderParams *params, int left, int top, uint count,
                            uint sample_end, local uint *scratch, uint *rays)
 {
     global int *queue = s->ints + QUEUE * TILE_PIXELS;
@@ -45,7 +45,7 @@ static inline uint advance(const State *s, constant RenderParams *params, int le
 }
 
 // Queues the slots whose pixels lie in the band and starts their first sample of this launch.
-static inline uint begin_tile(const State *s, constant RenderParams *params, global real *film,
+OUTLINE uint begin_tile(const State *s, constant RenderParams *params, global real *film,
                               global real *film_low, uint tile_left, uint tile_row, uint band_rows,
                               int image_top, uint sample_begin, local uint *scratch, uint *rays)
 {
@@ -82,7 +82,7 @@ static inline uint begin_tile(const State *s, constant RenderParams *params, glo
 }
 
 // Writes the tile's sums, or their means after the last sample.
-static inline void end_tile(const State *s, constant RenderParams *params, global real *film,
+OUTLINE void end_tile(const State *s, constant RenderParams *params, global real *film,
                             global real *film_low, uint tile_left, uint tile_row, uint band_rows,
                             uint sample_end)
 {
@@ -135,14 +135,9 @@ static inline void render_tile(const State *s, const Hierarchy *scene, const Sha
             pass.closing = pass.last == params->light_count;
             shade_hits(s, scene, shading, lights, params, &pass, count, rays);
 #if HAS_SHADOWS
-            for (uint l = pass.first; l < pass.last; l++) {
-                const uint k = l - pass.first;
-                const uint shadows = queue_compact(s, s->ints + QUEUE * TILE_PIXELS, count, 1 << k,
-                                                   s->ints + QUEUE_NEXT * TILE_PIXELS, scratch);
-                intersect_shadow(s, scene, shading->materials, k, shadows);
-                rays[RAYS_SHADOW] += GROUP_ITEM == 0 ? shadows : 0;
-                GROUP_BARRIER();
-            }
+            GROUP_BARRIER();
+            intersect_shadow(s, scene, shading->materials, pass.last - pass.first, count, &rays[RAYS_SHADOW]);
+            GROUP_BARRIER();
 #endif
             pass.first = pass.last;
         } while (!pass.closing);

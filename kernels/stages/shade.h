@@ -31,7 +31,7 @@ static inline v3 hit_diffuse(const Hit *hit, const Shading *shading)
 }
 
 // Emission and ambient light.
-static inline v3 shade_unlit(const Hit *hit, const Shading *shading)
+OUTLINE v3 shade_unlit(const Hit *hit, const Shading *shading)
 {
     v3 sum = v3_splat(0.0f);
 #if HAS_EMISSION
@@ -51,7 +51,7 @@ static inline v3 shade_unlit(const Hit *hit, const Shading *shading)
 
 #if HAS_LIGHTS
 // Radiance that the light sends to the eye by way of the hit, were nothing between them; 0 where it cannot.
-static inline v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
+OUTLINE v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
 {
     const vf cosine = v3_dot(hit->ns, light->dir);
     const vm lit = (cosine > (vf)(0.0f)) & (v3_dot(hit->ng, light->dir) > (vf)(0.0f));
@@ -78,7 +78,7 @@ static inline v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *ligh
 }
 
 // Light of the pass: queued as shadow rays, or added at once where nothing casts shadows. Returns FLAGS.
-static inline vi shade_lights(const State *s, const Slots *slots, const Hit *hit, const Shading *shading,
+OUTLINE vi shade_lights(const State *s, const Slots *slots, const Hit *hit, const Shading *shading,
                               global const LightRecord *lights, const LightPass *pass, v3 throughput,
                               v3 *radiance, vm shaded)
 {
@@ -91,9 +91,9 @@ static inline vi shade_lights(const State *s, const Slots *slots, const Hit *hit
 #if HAS_SHADOWS
         const uint fields = SHADOW_LIGHTS + (l - pass->first) * SHADOW_FIELDS;
         flags = flags | (arrives ? (vi)(1 << (l - pass->first)) : (vi)(0));
-        state_store3(s, fields + SHADOW_DIR, slots, light.dir, arrives);
-        state_store(s, fields + SHADOW_T, slots, light.distance, arrives);
-        state_store3(s, fields + SHADOW_GAIN, slots, gain, arrives);
+        state_store3(s, fields + SHADOW_DIR, slots, light.dir, slots->valid);
+        state_store(s, fields + SHADOW_T, slots, light.distance, slots->valid);
+        state_store3(s, fields + SHADOW_GAIN, slots, gain, slots->valid);
 #else
         *radiance = v3_select(arrives, v3_add(*radiance, gain), *radiance);
 #endif
@@ -105,7 +105,7 @@ static inline vi shade_lights(const State *s, const Slots *slots, const Hit *hit
 #include "stages/spawn.h"
 
 // Shades the rays of the queue for the lights of one pass.
-static inline void shade_hits(const State *s, const Hierarchy *scene, const Shading *shading,
+OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *shading,
                               global const LightRecord *lights, constant RenderParams *params,
                               const LightPass *pass, uint count, uint *rays)
 {

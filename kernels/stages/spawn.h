@@ -17,7 +17,7 @@ typedef struct {
     v3 transmit_dir, transmit_weight;
 } Scatter;
 
-static inline Scatter scatter_make(const Hit *hit)
+OUTLINE Scatter scatter_make(const Hit *hit)
 {
     Scatter s;
     const vf cos_ns = -v3_dot(hit->ns, hit->dir);
@@ -89,7 +89,7 @@ static inline vi pending_place(const Slots *slots, vi entry, int fields)
     return entry * (fields * TILE_PIXELS) + slots->index;
 }
 
-static inline void park_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance, vm m)
+OUTLINE void park_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance, vm m)
 {
     const vi count = state_load_int(s, PENDING_COUNT, slots);
     global real *reals = s->reals + s->pending_reals * TILE_PIXELS;
@@ -111,7 +111,7 @@ static inline void park_ray(const State *s, const Slots *slots, const NextRay *r
 }
 
 // Makes the youngest parked ray the one in flight, in the lanes of m, which have one.
-static inline void unpark_ray(const State *s, const Slots *slots, vm m)
+OUTLINE void unpark_ray(const State *s, const Slots *slots, vm m)
 {
     const vi count = state_load_int(s, PENDING_COUNT, slots);
     const vi entry = m ? count - 1 : (vi)(0);
@@ -137,7 +137,7 @@ static inline void unpark_ray(const State *s, const Slots *slots, vm m)
 #endif
 
 // Puts the first of the rays that follow in flight and parks the second; returns FLAG_NEXT where there is one.
-static inline vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, constant RenderParams *params,
+OUTLINE vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, constant RenderParams *params,
                             v3 throughput, vi instance, vm shaded, uint *rays)
 {
     const vi depth = state_load_int(s, DEPTH, slots) + 1;
@@ -147,23 +147,26 @@ static inline vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, 
     const Scatter scatter = scatter_make(hit);
     const NextRay mirrored = next_ray(hit, scatter.reflect_dir, scatter.reflect_weight, throughput, (vm)(0),
                                       params->min_weight, deeper);
-    store_ray(s, slots, &mirrored, depth, instance, mirrored.m);
-    vm next = mirrored.m;
+    NextRay first = mirrored;
     rays[RAYS_REFLECTED] += popcount(vm_bits(mirrored.m));
 #if HAS_TRANSMIT
     const NextRay through = next_ray(hit, scatter.transmit_dir, scatter.transmit_weight, throughput,
                                      hit->inside == hit->inside, params->min_weight, deeper);
     rays[RAYS_TRANSMITTED] += popcount(vm_bits(through.m));
-    const vm single = through.m & !mirrored.m;
-    store_ray(s, slots, &through, depth, instance, single);
 #if HAS_BRANCHING
     const vm both = through.m & mirrored.m;
     if (vm_any(both))
         park_ray(s, slots, &through, depth, instance, both);
 #endif
-    next = next | single;
+    first.org = v3_select(mirrored.m, mirrored.org, through.org);
+    first.dir = v3_select(mirrored.m, mirrored.dir, through.dir);
+    first.throughput = v3_select(mirrored.m, mirrored.throughput, through.throughput);
+    first.self = mirrored.m ? mirrored.self : through.self;
+    first.m = mirrored.m | through.m;
 #endif
-    return next ? (vi)(FLAG_NEXT) : (vi)(0);
+    // What the other slots had in flight is done with: all may be overwritten.
+    store_ray(s, slots, &first, depth, instance, slots->valid);
+    return first.m ? (vi)(FLAG_NEXT) : (vi)(0);
 }
 
 #endif

@@ -99,12 +99,13 @@ static inline v3 state_load3(const State *s, uint field, const Slots *slots)
                    state_load(s, field + 2, slots));
 }
 
-// Stores in the lanes of m, which must be valid ones.
+// Stores in the lanes of m, which must be valid ones. Where the slots follow each other a whole vector is
+// written, old numbers in the other lanes.
 static inline void state_store(const State *s, uint field, const Slots *slots, vf value, vm m)
 {
     global real *base = s->reals + field * TILE_PIXELS;
-    if (slots->consecutive && vm_all(m))
-        VF_STORE(value, base + slots->first);
+    if (slots->consecutive)
+        VF_STORE(m ? value : VF_LOAD(base + slots->first), base + slots->first);
     else
         vf_scatter(base, slots->index, value, m);
 }
@@ -112,8 +113,8 @@ static inline void state_store(const State *s, uint field, const Slots *slots, v
 static inline void state_store_int(const State *s, uint field, const Slots *slots, vi value, vm m)
 {
     global int *base = s->ints + field * TILE_PIXELS;
-    if (slots->consecutive && vm_all(m))
-        VI_STORE(value, base + slots->first);
+    if (slots->consecutive)
+        VI_STORE(m ? value : VI_LOAD(base + slots->first), base + slots->first);
     else
         vi_scatter(base, slots->index, value, m);
 }

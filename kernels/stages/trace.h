@@ -1,35 +1,41 @@
-// Stages: intersect_closest for the queue of rays, intersect_shadow for the queue of one light.
+// Stages: intersect_closest for the queue of rays, intersect_shadow for their shadow rays.
 #ifndef CLRT_KERNELS_STAGES_TRACE_H
 #define CLRT_KERNELS_STAGES_TRACE_H
 
 #include "accel/batch.h"
 #include "stages/queue.h"
 
-// Loads LANES rays into places first.. of a batch.
-static inline void batch_set(BatchRays *rays, BatchHits *hits, int first, v3 org, v3 dir, vf tfar, vi self,
-                             vi self_instance)
+// Origins of LANES rays at places first.. of a batch; self and instance: the surface that they start on.
+static inline void batch_start(BatchRays *rays, BatchHits *hits, int first, v3 org, vi self, vi instance)
 {
     VF_STORE(org.x, &rays->org_x[first]);
     VF_STORE(org.y, &rays->org_y[first]);
     VF_STORE(org.z, &rays->org_z[first]);
+    VI_STORE(self, &hits->self[first]);
+#if HAS_INSTANCES
+    VI_STORE(instance, &hits->self_instance[first]);
+#endif
+}
+
+// Directions and ends; no hit yet.
+static inline void batch_aim(BatchRays *rays, BatchHits *hits, int first, v3 dir, vf tfar)
+{
     VF_STORE(dir.x, &rays->dir_x[first]);
     VF_STORE(dir.y, &rays->dir_y[first]);
     VF_STORE(dir.z, &rays->dir_z[first]);
-    VF_STORE((vf)(0.0f), &hits->tmin[first]);
     VF_STORE(tfar, &hits->tfar[first]);
-    VI_STORE(self, &hits->self[first]);
     VI_STORE((vi)(NO_HIT), &hits->primitive[first]);
 #if HAS_INSTANCES
-    VI_STORE(self_instance, &hits->self_instance[first]);
     VI_STORE((vi)(NO_HIT), &hits->instance[first]);
 #endif
 #if HAS_TRANSMITTANCE
+    VF_STORE((vf)(0.0f), &hits->tmin[first]);
     VI_STORE((vi)(NO_HIT), &hits->last_primitive[first]);
     VI_STORE((vi)(NO_HIT), &hits->last_instance[first]);
 #endif
 }
 
-static inline void intersect_closest(const State *s, const Hierarchy *scene, uint count)
+OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint count)
 {
     global const int *queue = s->ints + QUEUE * TILE_PIXELS;
     for (uint begin = GROUP_ITEM * BATCH; begin < count; begin += GROUP * BATCH) {
@@ -41,8 +47,9 @@ static inline void intersect_closest(const State *s, const Hierarchy *scene, uin
 #if HAS_INSTANCES
             self_instance = state_load_int(s, SELF_INSTANCE, &slots);
 #endif
-            batch_set(&rays, &hits, k, state_load3(s, RAY_ORG, &slots), state_load3(s, RAY_DIR, &slots),
-                      (vf)(INFINITY), state_load_int(s, SELF, &slots), self_instance);
+            batch_start(&rays, &hits, k, state_load3(s, RAY_ORG, &slots), state_load_int(s, SELF, &slots),
+                        self_instance);
+            batch_aim(&rays, &hits, k, state_load3(s, RAY_DIR, &slots), (vf)(INFINITY));
         }
         traverse(scene, &rays, &hits, batch_mask(count - begin), false, false);
         for (int k = 0; k < BATCH; k += LANES) {
@@ -63,7 +70,7 @@ static inline void intersect_closest(const State *s, const Hierarchy *scene, uin
 // ends when it meets a surface that lets nothing through or leaves nothing.
 static inline void transmit_shadows(const Hierarchy *scene, global const MaterialRecord *materials,
                                     const BatchRays *rays, BatchHits *hits, const real *tfar, uint mask,
-                                    real *gain_r, real *gain_g, real *gain_b)
+                                    real *gain)
 {
     while (mask) {
         traverse(scene, rays, hits, mask, false, false);
@@ -82,10 +89,12 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
                 material = scene->infos[instance].material;
             hits->instance[k] = NO_HIT;
 #endif
-            gain_r[k] *= materials[material].transmit[0];
-            gain_g[k] *= materials[material].transmit[1];
-            gain_b[k] *= materials[material].transmit[2];
-            if (!(gain_r[k] > 0.0f || gain_g[k] > 0.0f || gain_b[k] > 0.0f))
+            bool some = false;
+            for (int c = 0; c < 3; c++) {
+                gain[c * BATCH + k] *= materials[material].transmit[c];
+                some = some || gain[c * BATCH + k] > 0.0f;
+            }
+            if (!some)
                 mask &= ~(1u << k);
             hits->last_primitive[k] = primitive;
             hits->last_instance[k] = instance;
@@ -97,49 +106,84 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
 }
 #endif
 
-// Traces the shadow rays towards light `light` of the pass and adds what arrives to the radiance of its slot.
-static inline void intersect_shadow(const State *s, const Hierarchy *scene,
-                                    global const MaterialRecord *materials, uint light, uint count)
+// Traces the shadow rays of a batch of slots towards light number `light` of the pass, those of mask, and adds
+// what arrives to the radiance of the batch.
+static inline void shadow_batch(const State *s, const Hierarchy *scene,
+                                global const MaterialRecord *materials, uint light, uint begin, uint count,
+                                uint mask, BatchRays *rays, BatchHits *hits, real *radiance)
 {
-    global const int *queue = s->ints + QUEUE_NEXT * TILE_PIXELS;
+    global const int *queue = s->ints + QUEUE * TILE_PIXELS;
     const uint fields = SHADOW_LIGHTS + light * SHADOW_FIELDS;
+    real gain[3 * BATCH];
+    for (int k = 0; k < BATCH; k += LANES) {
+        const Slots slots = slots_make(queue, begin + (uint)k, count);
+        const v3 dir = state_load3(s, fields + SHADOW_DIR, &slots);
+        const v3 arriving = state_load3(s, fields + SHADOW_GAIN, &slots);
+        batch_aim(rays, hits, k, dir, state_load(s, fields + SHADOW_T, &slots));
+        VF_STORE(arriving.x, &gain[k]);
+        VF_STORE(arriving.y, &gain[BATCH + k]);
+        VF_STORE(arriving.z, &gain[2 * BATCH + k]);
+    }
+#if HAS_TRANSMITTANCE
+    real tfar[BATCH];
+    for (int k = 0; k < BATCH; k++)
+        tfar[k] = hits->tfar[k];
+#endif
+    traverse(scene, rays, hits, mask, true, HAS_TRANSMITTANCE);
+    uint open = 0;
+    for (int k = 0; k < BATCH; k += LANES)
+        open |= vm_bits(VI_LOAD(&hits->primitive[k]) == (vi)(NO_HIT)) << k;
+    open &= mask;
+#if HAS_TRANSMITTANCE
+    transmit_shadows(scene, materials, rays, hits, tfar, open, gain);
+#endif
+    for (int k = 0; k < BATCH; k += LANES) {
+        const vm lit = vm_from_bits(open >> k);
+        for (int c = 0; c < 3; c++) {
+            const vf sum = VF_LOAD(&radiance[c * BATCH + k]);
+            VF_STORE(lit ? sum + VF_LOAD(&gain[c * BATCH + k]) : sum, &radiance[c * BATCH + k]);
+        }
+    }
+}
+
+// Traces the shadow rays towards the lights of a pass, in the order of the lights, so that each slot adds its
+// own light in that order.
+OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global const MaterialRecord *materials,
+                              uint lights, uint count, uint *traced)
+{
+    global const int *queue = s->ints + QUEUE * TILE_PIXELS;
     for (uint begin = GROUP_ITEM * BATCH; begin < count; begin += GROUP * BATCH) {
         BatchRays rays;
         BatchHits hits;
+        real radiance[3 * BATCH];
+        int flags[BATCH];
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);
-            vi self_instance = (vi)(NO_HIT);
+            const v3 sum = state_load3(s, RADIANCE, &slots);
+            vi instance = (vi)(NO_HIT);
 #if HAS_INSTANCES
-            self_instance = state_load_int(s, INSTANCE, &slots);
+            instance = state_load_int(s, INSTANCE, &slots);
 #endif
-            batch_set(&rays, &hits, k, state_load3(s, SHADOW_ORG, &slots),
-                      state_load3(s, fields + SHADOW_DIR, &slots), state_load(s, fields + SHADOW_T, &slots),
-                      state_load_int(s, SHADOW_SELF, &slots), self_instance);
+            batch_start(&rays, &hits, k, state_load3(s, SHADOW_ORG, &slots),
+                        state_load_int(s, SHADOW_SELF, &slots), instance);
+            VF_STORE(sum.x, &radiance[k]);
+            VF_STORE(sum.y, &radiance[BATCH + k]);
+            VF_STORE(sum.z, &radiance[2 * BATCH + k]);
+            VI_STORE(slots.valid ? state_load_int(s, FLAGS, &slots) : (vi)(0), &flags[k]);
         }
-        const uint all = batch_mask(count - begin);
-        traverse(scene, &rays, &hits, all, true, HAS_TRANSMITTANCE);
-        real gain_r[BATCH], gain_g[BATCH], gain_b[BATCH];
-        uint open = 0;
+        for (uint light = 0; light < lights; light++) {
+            uint mask = 0;
+            for (int k = 0; k < BATCH; k += LANES)
+                mask |= vm_bits((VI_LOAD(&flags[k]) & (vi)(1 << light)) != (vi)(0)) << k;
+            *traced += popcount(mask);
+            if (mask)
+                shadow_batch(s, scene, materials, light, begin, count, mask, &rays, &hits, radiance);
+        }
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);
-            const vm lit = VI_LOAD(&hits.primitive[k]) == (vi)(NO_HIT);
-            open |= vm_bits(lit & slots.valid) << k;
-            const v3 gain = state_load3(s, fields + SHADOW_GAIN, &slots);
-            VF_STORE(lit ? gain.x : (vf)(0.0f), &gain_r[k]);
-            VF_STORE(lit ? gain.y : (vf)(0.0f), &gain_g[k]);
-            VF_STORE(lit ? gain.z : (vf)(0.0f), &gain_b[k]);
-        }
-#if HAS_TRANSMITTANCE
-        real tfar[BATCH];
-        for (int k = 0; k < BATCH; k++)
-            tfar[k] = hits.tfar[k];
-        transmit_shadows(scene, materials, &rays, &hits, tfar, open, gain_r, gain_g, gain_b);
-#endif
-        for (int k = 0; k < BATCH && open; k += LANES) {
-            const Slots slots = slots_make(queue, begin + (uint)k, count);
-            const v3 gain = v3_make(VF_LOAD(&gain_r[k]), VF_LOAD(&gain_g[k]), VF_LOAD(&gain_b[k]));
-            const v3 radiance = v3_add(state_load3(s, RADIANCE, &slots), gain);
-            state_store3(s, RADIANCE, &slots, radiance, slots.valid);
+            const v3 sum = v3_make(VF_LOAD(&radiance[k]), VF_LOAD(&radiance[BATCH + k]),
+                                   VF_LOAD(&radiance[2 * BATCH + k]));
+            state_store3(s, RADIANCE, &slots, sum, slots.valid);
         }
     }
 }

@@ -35,7 +35,6 @@ sphere { <-1.1, -0.3, -8>, 0.7
   finish { ambient 0 diffuse 1 phong 0.867 phong_size 30 reflection { 0.25 } }
 }
 
-// Rotations turn the other way here, seen in POV-Ray's own left-handed picture of the same numbers.
 box { -0.6, 0.6
   rotate <0, 45, 0>
   rotate <35.26, 0, 0>
@@ -62,8 +61,8 @@ mesh {
   }
 }
 
-// In clrt v grows towards -z; a checker mirrored in z is the same.
+// In clrt v grows towards -z. POV-Ray's checker is one of space: the plane cuts it in the middle of a layer.
 plane { y, -1
-  pigment { checker color rgb 0.65, color rgb 0.04 translate -1e-4 * y scale <1, 1, -1> }
+  pigment { checker color rgb 0.65, color rgb 0.04 translate -1.5 * y scale <1, 1, -1> }
   finish { ambient 0 diffuse 1 reflection { 0.3 } }
 }

@@ -52,7 +52,8 @@ static void reads_operands(void **state)
     assert_string_equal(options.out, "b.png");
     assert_int_equal(options.bits, 8);
     assert_false(options.size_given || options.samples_given || options.seed_given || options.depth_given);
-    assert_false(options.crop_given || options.exposure_given || options.tone_map_given || options.bits_given);
+    assert_false(options.crop_given || options.exposure_given);
+    assert_false(options.tone_map_given || options.bits_given);
     options = accepted("- -");
     assert_string_equal(options.scene, "-");
     assert_string_equal(options.out, "-");

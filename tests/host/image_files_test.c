@@ -66,7 +66,10 @@ static u32 sample(const PngCase *c, u32 x, u32 y, u32 channel)
 
 static u32 stored_channels(int type)
 {
-    return type == PNG_COLOR_TYPE_RGB ? 3 : type == PNG_COLOR_TYPE_RGBA ? 4 : type == PNG_COLOR_TYPE_GRAY_ALPHA ? 2 : 1;
+    return type == PNG_COLOR_TYPE_RGB          ? 3
+           : type == PNG_COLOR_TYPE_RGBA       ? 4
+           : type == PNG_COLOR_TYPE_GRAY_ALPHA ? 2
+                                               : 1;
 }
 
 static void write_png(const char *path, const PngCase *c, bool linear)
@@ -139,7 +142,8 @@ static void test_every_kind_of_png(void **state)
         {PNG_COLOR_TYPE_GRAY, 1, false, false, 1, 8},       {PNG_COLOR_TYPE_GRAY, 2, true, false, 1, 8},
         {PNG_COLOR_TYPE_GRAY, 4, false, true, 2, 8},        {PNG_COLOR_TYPE_GRAY, 8, true, true, 2, 8},
         {PNG_COLOR_TYPE_GRAY, 16, false, false, 1, 16},     {PNG_COLOR_TYPE_GRAY, 16, true, true, 2, 16},
-        {PNG_COLOR_TYPE_GRAY_ALPHA, 8, false, false, 2, 8}, {PNG_COLOR_TYPE_GRAY_ALPHA, 16, true, false, 2, 16},
+        {PNG_COLOR_TYPE_GRAY_ALPHA, 8, false, false, 2, 8},
+        {PNG_COLOR_TYPE_GRAY_ALPHA, 16, true, false, 2, 16},
         {PNG_COLOR_TYPE_RGB, 8, false, false, 3, 8},        {PNG_COLOR_TYPE_RGB, 8, true, false, 3, 8},
         {PNG_COLOR_TYPE_RGB, 16, false, false, 3, 16},      {PNG_COLOR_TYPE_RGBA, 8, true, false, 4, 8},
         {PNG_COLOR_TYPE_RGBA, 16, false, false, 4, 16},     {PNG_COLOR_TYPE_PALETTE, 1, false, false, 3, 8},
@@ -195,7 +199,7 @@ static void test_broken_png(void **state)
     FILE *file = fopen(folder->file, "rb");
     const size_t length = fread(bytes, 1, sizeof bytes, file);
     fclose(file);
-    // Cut anywhere before the end of the pixels, and with any byte of the pixels' chunk flipped, it is refused.
+    // Cut anywhere before the end of the pixels, or with a byte of the pixels' chunk changed, it is refused.
     for (size_t cut = 1; cut < length - 12; cut += 7) {
         Error error;
         PngInfo info;

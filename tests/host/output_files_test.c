@@ -207,9 +207,11 @@ static void test_suffixes(void **state)
     const OutputOptions options = {.bits = 8};
     const struct {
         const char *name, *says;
-    } refused[] = {{"a.exr", "not supported yet"}, {"a.hdr", "not supported yet"}, {"a.jpg", ".png or .pfm"},
-                   {"a", ".png or .pfm"},          {"png", ".png or .pfm"},        {"a.png/b", ".png or .pfm"},
-                   {"a.pngx", ".png or .pfm"},     {"a.pn", ".png or .pfm"}};
+    } refused[] = {
+        {"a.exr", "not supported yet"}, {"a.hdr", "not supported yet"}, {"a.jpg", ".png or .pfm"},
+        {"a", ".png or .pfm"},          {"png", ".png or .pfm"},        {"a.png/b", ".png or .pfm"},
+        {"a.pngx", ".png or .pfm"},     {"a.pn", ".png or .pfm"},
+    };
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         Error error;
         const char *path = path_of(f, refused[i].name);

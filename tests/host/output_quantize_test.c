@@ -69,8 +69,8 @@ static void check_settings(const OutputSettings *settings, u32 bits)
     Error error;
     Quantizer *quantizer = quantizer_create(settings, bits, &error);
     assert_non_null(quantizer);
-    const f32 specials[] = {0,       -0.0f,    1,       -1,       0.5f,  0.0031308f,    FLT_MIN,       FLT_MAX,
-                            FLT_MIN, -FLT_MAX, -1e-45f, INFINITY, 1e38f, -(f32)INFINITY, FLT_TRUE_MIN};
+    const f32 specials[] = {0,       -0.0f,    1,       -1,       0.5f,  0.0031308f,     FLT_MIN,
+                            FLT_MAX, -FLT_MAX, -1e-45f, INFINITY, 1e38f, -(f32)INFINITY, FLT_TRUE_MIN};
     for (size_t i = 0; i < sizeof specials / sizeof specials[0]; i++)
         check(quantizer, settings, bits, specials[i]);
     assert_int_equal(table_level(quantizer, bits, NAN), 0);
@@ -151,11 +151,13 @@ static u32 long_double_level(const OutputSettings *settings, u32 bits, f32 radia
     else if (settings->tone_map == TONE_MAP_ACES)
         c = c * (2.51L * c + 0.03L) / (c * (2.43L * c + 0.59L) + 0.14L);
     else if (settings->tone_map == TONE_MAP_HABLE) {
-        const long double f[2] = {2 * c, 11.2L};
-        long double g[2];
-        for (int i = 0; i < 2; i++)
-            g[i] = (f[i] * (0.15L * f[i] + 0.05L) + 0.004L) / (f[i] * (0.15L * f[i] + 0.5L) + 0.06L) - 0.02L / 0.3L;
-        c = g[0] / g[1];
+        const long double x[2] = {2 * c, 11.2L};
+        long double f[2];
+        for (int i = 0; i < 2; i++) {
+            const long double top = x[i] * (0.15L * x[i] + 0.05L) + 0.004L;
+            f[i] = top / (x[i] * (0.15L * x[i] + 0.5L) + 0.06L) - 0.02L / 0.3L;
+        }
+        c = f[0] / f[1];
     }
     c = c > 1 ? 1 : c;
     if (settings->encoding == ENCODING_SRGB)

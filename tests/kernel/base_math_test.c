@@ -52,13 +52,13 @@ static double exact(Function function, double x, double y)
 }
 
 // Distance in units of the last place of a float near the reference. Where the reference leaves the range of
-// normal floats, the end of the range is right.
+// normal floats, or is within 2^-17 of doing so, 0 and infinity are right.
 static double ulp_error(float result, double reference)
 {
     const double magnitude = fabs(reference);
     if (magnitude < 0x1p-126 * (1 + 0x1p-17) && result == 0.0f)
         return 0;
-    if (magnitude > (double)FLT_MAX && (isinf(result) || fabsf(result) == FLT_MAX))
+    if (magnitude > 0x1p128 * (1 - 0x1p-17) && isinf(result))
         return 0;
     if (!isfinite(result))
         return INFINITY;
@@ -73,7 +73,7 @@ typedef struct {
 } Worst;
 
 // libm's double result is the reference where the error is small; MPFR has the last word on each new worst
-// case and checks libm at every 64th input.
+// case and checks libm at every 256th input.
 static void measure(Function function, const Batch *batch, Worst *worst)
 {
     for (size_t i = 0; i < BATCH; i++) {
@@ -81,10 +81,11 @@ static void measure(Function function, const Batch *batch, Worst *worst)
         const double y = (double)batch->y[i];
         double reference = libm(function, x, y);
         double error = ulp_error(batch->result[i], reference);
-        if (i % 64 == 0 || !(error <= worst->ulp)) {
+        if (i % 256 == 0 || !(error <= worst->ulp)) {
             const double value = exact(function, x, y);
             if (fabs(value) >= 0x1p-126 && !(fabs(reference - value) <= 1e-14 * fabs(value)))
-                fail_msg("libm and MPFR differ: %s(%a, %a) = %a and %a", function_names[function], x, y, reference, value);
+                fail_msg("libm and MPFR differ: %s(%a, %a) = %a and %a", function_names[function], x, y,
+                         reference, value);
             error = ulp_error(batch->result[i], value);
         }
         if (!(error <= worst->ulp))
@@ -134,7 +135,8 @@ static void fill(const Case *c, uint64_t first, uint64_t total, Batch *batch)
         const uint32_t random = mix((uint32_t)first + i);
         const uint32_t step = (uint32_t)((double)(first + i) / (double)(total - 1) * x_span);
         const float x = from_bits(x_low + step);
-        const float y = from_bits(y_low + (uint32_t)(((uint64_t)mix(random + 1u) * ((uint64_t)y_span + 1)) >> 32));
+        const uint64_t scaled = mix(random + 1u) * ((uint64_t)y_span + 1);
+        const float y = from_bits(y_low + (uint32_t)(scaled >> 32));
         batch->x[i] = c->x_signs && random & 1u ? -x : x;
         batch->y[i] = c->y_signs && random & 2u ? -y : y;
     }
@@ -187,7 +189,8 @@ static void multiples_of_half_pi_are_reduced(void **state)
         Worst worst = { 0, 0, 0, 0 };
         functions_apply(program, function, 8, batch);
         measure(function, batch, &worst);
-        printf("%s near multiples of pi/2: worst %.4f ulp at %a\n", function_names[function], worst.ulp, (double)worst.x);
+        printf("%s near multiples of pi/2: worst %.4f ulp at %a\n", function_names[function], worst.ulp,
+               (double)worst.x);
         assert_true(worst.ulp <= bounds[function]);
     }
     free(batch);

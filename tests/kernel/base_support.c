@@ -10,7 +10,8 @@ const char *const function_names[FUNCTIONS] = {
 
 static const char source[] =
     "#include \"base/math.h\"\n"
-    "kernel void apply(uint function, global const float *xs, global const float *ys, global float *results)\n"
+    "kernel void apply(uint function, global const float *xs, global const float *ys,\n"
+    "                  global float *results)\n"
     "{\n"
     "    const size_t i = get_global_id(0) * LANES;\n"
     "    const vf x = VF_LOAD(xs + i);\n"
@@ -45,8 +46,9 @@ KernelProgram *functions_create(KernelDevice *device, int lanes)
 double functions_apply(KernelProgram *program, Function function, int lanes, Batch *batch)
 {
     const uint32_t number = (uint32_t)function;
-    return kernel_run(program, "apply", BATCH / (size_t)lanes,
-                      (KernelArg[]){ kernel_value(&number, sizeof number), kernel_in(batch->x, sizeof batch->x),
-                                     kernel_in(batch->y, sizeof batch->y),
-                                     kernel_out(batch->result, sizeof batch->result) }, 4);
+    const KernelArg args[] = {
+        kernel_value(&number, sizeof number), kernel_in(batch->x, sizeof batch->x),
+        kernel_in(batch->y, sizeof batch->y), kernel_out(batch->result, sizeof batch->result),
+    };
+    return kernel_run(program, "apply", BATCH / (size_t)lanes, args, 4);
 }

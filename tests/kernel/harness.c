@@ -109,9 +109,9 @@ KernelProgram *kernel_program_create_with(KernelDevice *device, const char *sour
                                           const char *options)
 {
     char text[MAX_OPTIONS];
-    const int length = snprintf(text, sizeof text, "-cl-std=CL1.2 -I %s -DLANES=%d%s %s", KERNEL_SOURCE_DIR,
-                                lanes, device->correctly_rounded ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
-                                options ? options : "");
+    const char *rounding = device->correctly_rounded ? "-cl-fp32-correctly-rounded-divide-sqrt" : "";
+    const int length = snprintf(text, sizeof text, "-cl-std=CL1.2 -I %s -DLANES=%d %s %s", KERNEL_SOURCE_DIR,
+                                lanes, rounding, options ? options : "");
     assert_in_range(length, 1, MAX_OPTIONS - 1);
     cl_int status;
     cl_program built = clCreateProgramWithSource(device->context, 1, &source, NULL, &status);

@@ -16,7 +16,8 @@
 //       KernelProgram *program = kernel_program_create(*state, "#include \"base/math.h\"\n"
 //           "kernel void f(global const float *x, global float *y)\n"
 //           "{ size_t i = get_global_id(0) * LANES; VF_STORE(vf_exp(VF_LOAD(x + i)), y + i); }", 8);
-//       kernel_run(program, "f", count / 8, (KernelArg[]){ kernel_in(x, sizeof x), kernel_out(y, sizeof y) }, 2);
+//       const KernelArg args[] = { kernel_in(x, sizeof x), kernel_out(y, sizeof y) };
+//       kernel_run(program, "f", count / 8, args, 2);
 //       kernel_program_destroy(program);
 //   }
 #ifndef CLRT_TESTS_KERNEL_HARNESS_H

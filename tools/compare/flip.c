@@ -12,8 +12,11 @@ enum { BAND_ROWS = 96, MAX_RADIUS = 15, MAX_TAPS = 2 * MAX_RADIUS + 1 };
 
 static const f64 PI = 3.14159265358979323846;
 
-// Color pipeline, spatial filtering and its table of constants: sums of two Gaussians a sqrt(pi/b) exp(-pi^2 d^2 / b) per channel, the
-// second only of the blue-yellow one.
+// A display of 3840 pixels on 0.7 m, seen from 0.7 m: 3840 pi / 180.
+static const f64 PIXELS_PER_DEGREE = 67.020643276582255;
+
+// Color pipeline, spatial filtering and its table of constants: sums of two Gaussians
+// a sqrt(pi/b) exp(-pi^2 d^2 / b) per channel, the second only of the blue-yellow one.
 static const f64 SCALE_Y = 0.0047, SCALE_CX = 0.0053, SCALE_CZ[2] = {0.04, 0.025};
 static const f64 AMOUNT_CZ[2] = {34.1, 13.5};
 // Color pipeline, redistribution of errors: exponent of the difference, where its range is bent and to what.
@@ -30,7 +33,7 @@ static const f64 TO_XYZ[3][3] = {
 
 typedef struct Kernel {
     int radius;
-    f32 weights[MAX_TAPS];
+    f64 weights[MAX_TAPS];
 } Kernel;
 
 enum { KERNEL_Y, KERNEL_CX, KERNEL_CZ1, KERNEL_CZ2, KERNEL_GAUSS, KERNEL_EDGE, KERNEL_POINT, KERNEL_COUNT };
@@ -42,6 +45,8 @@ typedef struct Flip {
     f64 max_color_difference;
 } Flip;
 
+// In double throughout: the feature difference is a square root, which makes 3e-4 of a rounding of 1e-7.
+
 // What is compared of a picture: Lab with chroma scaled by lightness, and the strengths of edges and points.
 enum { PLANE_L, PLANE_A, PLANE_B, PLANE_EDGE, PLANE_POINT, PLANE_COUNT };
 
@@ -50,12 +55,12 @@ enum { PLANE_L, PLANE_A, PLANE_B, PLANE_EDGE, PLANE_POINT, PLANE_COUNT };
 typedef struct Workspace {
     u32 width;
     FlipScale scale;
-    f32 *light[3];             // one row, with MAX_RADIUS more pixels at both ends
-    f32 *passed[KERNEL_COUNT]; // BAND_ROWS and MAX_RADIUS more rows above and below
-    f32 *columns[4];           // one row: sums over the taps
-    f32 *planes[2][PLANE_COUNT];
-    f32 *decoded; // the light of each level, for sRGB pictures
-    f32 *memory;  // all of the above
+    f64 *light[3];             // one row, with MAX_RADIUS more pixels at both ends
+    f64 *passed[KERNEL_COUNT]; // BAND_ROWS and MAX_RADIUS more rows above and below
+    f64 *columns[4];           // one row: sums over the taps
+    f64 *planes[2][PLANE_COUNT];
+    f64 *decoded; // the light of each level, for sRGB pictures
+    f64 *memory;  // all of the above
 } Workspace;
 
 // ---- kernels --------------------------------------------------------------------------------
@@ -64,7 +69,7 @@ static void set_kernel(Kernel *kernel, int radius, const f64 *weights, f64 facto
 {
     kernel->radius = radius;
     for (int i = 0; i <= 2 * radius; i++)
-        kernel->weights[i] = (f32)(weights[i] * factor);
+        kernel->weights[i] = (weights[i] * factor);
 }
 
 // One axis of a Gaussian of the spatial filter; returns its sum.
@@ -72,7 +77,7 @@ static f64 spatial_weights(f64 amount, f64 scale, int radius, f64 weights[MAX_TA
 {
     f64 sum = 0;
     for (int i = -radius; i <= radius; i++) {
-        const f64 d = i / FLIP_PIXELS_PER_DEGREE;
+        const f64 d = i / PIXELS_PER_DEGREE;
         weights[i + radius] = sqrt(amount * sqrt(PI / scale)) * exp(-PI * PI * d * d / scale);
         sum += weights[i + radius];
     }
@@ -82,9 +87,10 @@ static f64 spatial_weights(f64 amount, f64 scale, int radius, f64 weights[MAX_TA
 static void make_spatial_kernels(Flip *flip)
 {
     // Three standard deviations of the widest.
-    const int radius = (int)ceil(3 * sqrt(SCALE_CZ[0] / (2 * PI * PI)) * FLIP_PIXELS_PER_DEGREE);
+    const int radius = (int)ceil(3 * sqrt(SCALE_CZ[0] / (2 * PI * PI)) * PIXELS_PER_DEGREE);
     f64 weights[2][MAX_TAPS];
-    set_kernel(&flip->kernels[KERNEL_Y], radius, weights[0], 1 / spatial_weights(1, SCALE_Y, radius, weights[0]));
+    set_kernel(&flip->kernels[KERNEL_Y], radius, weights[0],
+               1 / spatial_weights(1, SCALE_Y, radius, weights[0]));
     set_kernel(&flip->kernels[KERNEL_CX], radius, weights[0],
                1 / spatial_weights(1, SCALE_CX, radius, weights[0]));
     // The two-dimensional sum of both Gaussians is normalised as one; each is the square of its axis.
@@ -110,7 +116,7 @@ static void set_balanced_kernel(Kernel *kernel, int radius, f64 weights[MAX_TAPS
 // Feature pipeline, feature detection: a Gaussian and its derivatives.
 static void make_feature_kernels(Flip *flip)
 {
-    const f64 deviation = 0.5 * FEATURE_WIDTH * FLIP_PIXELS_PER_DEGREE;
+    const f64 deviation = 0.5 * FEATURE_WIDTH * PIXELS_PER_DEGREE;
     const int radius = (int)ceil(3 * deviation);
     f64 gauss[MAX_TAPS], edge[MAX_TAPS], point[MAX_TAPS];
     f64 sum = 0;
@@ -207,7 +213,7 @@ static void make_flip(Flip *flip)
 static f64 decode(const Workspace *work, f32 value)
 {
     const f32 clamped = value < 0 ? 0 : value > work->scale.peak ? work->scale.peak : value;
-    return work->scale.srgb ? (f64)work->decoded[(size_t)clamped] : (f64)clamped / (f64)work->scale.peak;
+    return work->scale.srgb ? work->decoded[(size_t)clamped] : (f64)clamped / (f64)work->scale.peak;
 }
 
 // A row as Y, Cx, Cz (CIELAB without its curve), its ends repeated into the margins.
@@ -222,12 +228,12 @@ static void read_light(const Flip *flip, Workspace *work, const Image *image, u3
         multiply(TO_XYZ, rgb, xyz);
         for (int i = 0; i < 3; i++)
             xyz[i] /= flip->white[i];
-        work->light[0][x + MAX_RADIUS] = (f32)(116 * xyz[1] - 16);
-        work->light[1][x + MAX_RADIUS] = (f32)(500 * (xyz[0] - xyz[1]));
-        work->light[2][x + MAX_RADIUS] = (f32)(200 * (xyz[1] - xyz[2]));
+        work->light[0][x + MAX_RADIUS] = (116 * xyz[1] - 16);
+        work->light[1][x + MAX_RADIUS] = (500 * (xyz[0] - xyz[1]));
+        work->light[2][x + MAX_RADIUS] = (200 * (xyz[1] - xyz[2]));
     }
     for (int i = 0; i < 3; i++) {
-        f32 *line = work->light[i];
+        f64 *line = work->light[i];
         for (u32 x = 0; x < MAX_RADIUS; x++) {
             line[x] = line[MAX_RADIUS];
             line[MAX_RADIUS + work->width + x] = line[MAX_RADIUS + work->width - 1];
@@ -240,11 +246,11 @@ static void pass_horizontally(const Flip *flip, Workspace *work, u32 row)
     static const int SOURCES[KERNEL_COUNT] = {0, 1, 2, 2, 0, 0, 0};
     for (int k = 0; k < KERNEL_COUNT; k++) {
         const Kernel *kernel = &flip->kernels[k];
-        f32 *out = work->passed[k] + (size_t)row * work->width;
+        f64 *out = work->passed[k] + (size_t)row * work->width;
         memset(out, 0, work->width * sizeof *out);
         for (int i = 0; i <= 2 * kernel->radius; i++) {
-            const f32 weight = kernel->weights[i];
-            const f32 *line = work->light[SOURCES[k]] + MAX_RADIUS - kernel->radius + i;
+            const f64 weight = kernel->weights[i];
+            const f64 *line = work->light[SOURCES[k]] + MAX_RADIUS - kernel->radius + i;
             for (u32 x = 0; x < work->width; x++)
                 out[x] += weight * line[x];
         }
@@ -252,13 +258,13 @@ static void pass_horizontally(const Flip *flip, Workspace *work, u32 row)
 }
 
 // Adds the column sums of what kernel `source` made, around the row, weighted by the kernel `taps`.
-static void pass_vertically(const Flip *flip, const Workspace *work, int source, int taps, u32 row, f32 *out)
+static void pass_vertically(const Flip *flip, const Workspace *work, int source, int taps, u32 row, f64 *out)
 {
     const Kernel *kernel = &flip->kernels[taps];
     for (int i = 0; i <= 2 * kernel->radius; i++) {
-        const f32 weight = kernel->weights[i];
+        const f64 weight = kernel->weights[i];
         const u32 from = row + MAX_RADIUS + (u32)i - (u32)kernel->radius;
-        const f32 *line = work->passed[source] + (size_t)from * work->width;
+        const f64 *line = work->passed[source] + (size_t)from * work->width;
         for (u32 x = 0; x < work->width; x++)
             out[x] += weight * line[x];
     }
@@ -267,12 +273,12 @@ static void pass_vertically(const Flip *flip, const Workspace *work, int source,
 static void clear_columns(const Workspace *work)
 {
     for (int i = 0; i < 4; i++)
-        memset(work->columns[i], 0, work->width * sizeof(f32));
+        memset(work->columns[i], 0, work->width * sizeof(f64));
 }
 
-static void finish_color(const Flip *flip, const Workspace *work, f32 *const planes[PLANE_COUNT], u32 row)
+static void finish_color(const Flip *flip, const Workspace *work, f64 *const planes[PLANE_COUNT], u32 row)
 {
-    f32 *const *sums = work->columns;
+    f64 *const *sums = work->columns;
     clear_columns(work);
     pass_vertically(flip, work, KERNEL_Y, KERNEL_Y, row, sums[0]);
     pass_vertically(flip, work, KERNEL_CX, KERNEL_CX, row, sums[1]);
@@ -281,18 +287,18 @@ static void finish_color(const Flip *flip, const Workspace *work, f32 *const pla
     const size_t start = (size_t)row * work->width;
     for (u32 x = 0; x < work->width; x++) {
         f64 lab[3];
-        light_to_lab(flip, (f64)sums[0][x], (f64)sums[1][x], (f64)sums[2][x], lab);
-        planes[PLANE_L][start + x] = (f32)lab[0];
-        planes[PLANE_A][start + x] = (f32)lab[1];
-        planes[PLANE_B][start + x] = (f32)lab[2];
+        light_to_lab(flip, sums[0][x], sums[1][x], sums[2][x], lab);
+        planes[PLANE_L][start + x] = lab[0];
+        planes[PLANE_A][start + x] = lab[1];
+        planes[PLANE_B][start + x] = lab[2];
     }
 }
 
-// Lengths of the gradient and of the vector of second derivatives. The weights of a derivative sum to 0, so that
-// Y's offset is gone, and 1/116 is all that its range needs (the paper's erratum).
-static void finish_features(const Flip *flip, const Workspace *work, f32 *const planes[PLANE_COUNT], u32 row)
+// Lengths of the gradient and of the vector of second derivatives. The weights of a derivative sum to 0, so
+// that Y's offset is gone, and 1/116 is all that its range needs (the paper's erratum).
+static void finish_features(const Flip *flip, const Workspace *work, f64 *const planes[PLANE_COUNT], u32 row)
 {
-    f32 *const *sums = work->columns;
+    f64 *const *sums = work->columns;
     clear_columns(work);
     pass_vertically(flip, work, KERNEL_EDGE, KERNEL_GAUSS, row, sums[0]);
     pass_vertically(flip, work, KERNEL_GAUSS, KERNEL_EDGE, row, sums[1]);
@@ -300,13 +306,13 @@ static void finish_features(const Flip *flip, const Workspace *work, f32 *const 
     pass_vertically(flip, work, KERNEL_GAUSS, KERNEL_POINT, row, sums[3]);
     const size_t start = (size_t)row * work->width;
     for (u32 x = 0; x < work->width; x++) {
-        planes[PLANE_EDGE][start + x] = sqrtf(sums[0][x] * sums[0][x] + sums[1][x] * sums[1][x]) / 116;
-        planes[PLANE_POINT][start + x] = sqrtf(sums[2][x] * sums[2][x] + sums[3][x] * sums[3][x]) / 116;
+        planes[PLANE_EDGE][start + x] = sqrt(sums[0][x] * sums[0][x] + sums[1][x] * sums[1][x]) / 116;
+        planes[PLANE_POINT][start + x] = sqrt(sums[2][x] * sums[2][x] + sums[3][x] * sums[3][x]) / 116;
     }
 }
 
 static void filter_band(const Flip *flip, Workspace *work, const Image *image, u32 top, u32 rows,
-                        f32 *const planes[PLANE_COUNT])
+                        f64 *const planes[PLANE_COUNT])
 {
     const i64 last = (i64)image->height - 1;
     for (u32 row = 0; row < rows + 2 * MAX_RADIUS; row++) {
@@ -326,7 +332,7 @@ static f32 pixel_difference(const Flip *flip, const Workspace *work, size_t i)
 {
     f64 d[PLANE_COUNT];
     for (int p = 0; p < PLANE_COUNT; p++)
-        d[p] = (f64)work->planes[0][p][i] - (f64)work->planes[1][p][i];
+        d[p] = work->planes[0][p][i] - work->planes[1][p][i];
     // Small colour differences get most of the range.
     const f64 most = flip->max_color_difference;
     const f64 bend = BEND_AT * most;
@@ -345,11 +351,11 @@ static bool make_workspace(Workspace *work, u32 width, Error *error)
     const size_t passed = (size_t)width * (BAND_ROWS + 2 * MAX_RADIUS);
     const size_t plane = (size_t)width * BAND_ROWS;
     enum { LEVELS = 65536 };
-    work->memory = malloc((3 * line + KERNEL_COUNT * passed + 4 * (size_t)width + 2 * PLANE_COUNT * plane + LEVELS) *
-                          sizeof(f32));
+    const size_t rows = 3 * line + KERNEL_COUNT * passed + 4 * (size_t)width;
+    work->memory = malloc((rows + 2 * PLANE_COUNT * plane + LEVELS) * sizeof(f64));
     if (!work->memory)
         return error_set(error, ERROR_MEMORY, "no memory to compute FLIP");
-    f32 *next = work->memory;
+    f64 *next = work->memory;
     for (int i = 0; i < 3; i++, next += line)
         work->light[i] = next;
     for (int i = 0; i < KERNEL_COUNT; i++, next += passed)
@@ -365,7 +371,7 @@ static bool make_workspace(Workspace *work, u32 width, Error *error)
 static void decode_levels(Workspace *work, FlipScale scale)
 {
     for (u32 level = 0; scale.srgb && level <= (u32)scale.peak; level++)
-        work->decoded[level] = (f32)srgb_decode(level / (f64)scale.peak);
+        work->decoded[level] = srgb_decode(level / (f64)scale.peak);
 }
 
 bool flip_compare(const Image *reference, const Image *test, FlipScale scale, f32 *differences, Error *error)

@@ -44,7 +44,7 @@ static void add_value(const Pictures *pictures, const Limits *limits, f32 a, f32
     bool close = d <= limits->fail;
     m->hard_failed_values += !(d <= limits->hard_fail);
     m->different_values += !(d == 0);
-    m->nan_values += isnan(d);
+    m->nan_values += isnan(d) != 0;
     if (pictures->format == FORMAT_PFM && !isnan(d)) {
         const u32 ulps = metrics_ulps(a, b);
         m->max_ulp = ulps > m->max_ulp ? ulps : m->max_ulp;
@@ -75,6 +75,9 @@ static bool add_flip(const Pictures *pictures, Metrics *m, Error *error)
 {
     const Image *image = pictures->images[0];
     const size_t count = (size_t)image->width * image->height;
+    m->flip_mean = 0;
+    if (memcmp(image->values, pictures->images[1]->values, count * image->channels * sizeof(f32)) == 0)
+        return true;
     f32 *differences = malloc(count * sizeof *differences);
     if (!differences)
         return error_set(error, ERROR_MEMORY, "no memory to compute FLIP");
@@ -119,8 +122,8 @@ bool metrics_compute(const Pictures *pictures, const Limits *limits, Metrics *me
     m.flip_mean = NAN;
     if (!has_nan(pictures->images[0]) && !has_nan(pictures->images[1]) && !add_flip(pictures, &m, error))
         return false;
-    m.same = (f64)m.failed_values * 100 <= limits->fail_percent * (f64)m.values && m.hard_failed_values == 0 &&
-             m.nan_values == 0;
+    m.same = (f64)m.failed_values * 100 <= limits->fail_percent * (f64)m.values &&
+             m.hard_failed_values == 0 && m.nan_values == 0;
     *metrics = m;
     return true;
 }

@@ -19,8 +19,8 @@ typedef struct Worst {
     f32 a, b;
 } Worst;
 
-// Of the pixels that are compared. A NaN differs from everything, itself included, by NaN, and so mean, RMSE and
-// the like are NaN where there is one; equal infinities do not differ.
+// Of the pixels that are compared. A NaN differs from everything, itself included, by NaN, and so mean, RMSE
+// and the like are NaN where there is one; equal infinities do not differ.
 typedef struct Metrics {
     u64 pixels, left_out_pixels, values;
     u64 different_pixels, different_values; // by anything

@@ -15,10 +15,10 @@ const char *options_usage(void)
            "Says how the picture B differs from A. Both are PNG of one depth, or both PFM, of one size.\n"
            "Without options they are the same only if every value is.\n"
            "\n"
-           "      --fail L          a value differs if it is more than L levels away (PFM: more than L); default 0\n"
-           "      --fail-ulp N      PFM: a value is also close enough within N units in the last place\n"
-           "      --fail-percent P  up to P percent of the values may differ so; default 0\n"
-           "      --hard-fail H     no value may be more than H levels away (PFM: more than H)\n"
+           "      --fail L          a value fails if it is more than L levels away (PFM: by L); default 0\n"
+           "      --fail-ulp N      PFM: nor does it fail within N units in the last place; default 0\n"
+           "      --fail-percent P  up to P percent of the values may fail; default 0\n"
+           "      --hard-fail H     no value may be more than H levels away (PFM: by H)\n"
            "      --mask MASK.png   leave out the pixels where MASK is not black\n"
            "      --crop X,Y,W,H    compare this rectangle only\n"
            "      --map OUT.png     draw the differences\n"
@@ -60,7 +60,8 @@ static bool parse_crop(const char *text, Region *crop, Error *error)
     if (!parse_whole(&at, ',', &crop->x) || !parse_whole(&at, ',', &crop->y) ||
         !parse_whole(&at, ',', &crop->width) || !parse_whole(&at, 0, &crop->height) || crop->width == 0 ||
         crop->height == 0)
-        return error_set(error, ERROR_USAGE, "--crop: \"%s\" is not X,Y,W,H with W and H of at least 1", text);
+        return error_set(error, ERROR_USAGE, "--crop: \"%s\" is not X,Y,W,H with W and H of at least 1",
+                         text);
     return true;
 }
 

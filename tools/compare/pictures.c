@@ -27,7 +27,7 @@ static bool is_pfm(const char *path, bool *pfm, Error *error)
 
 static Image *read_picture(const char *path, Format *format, bool *linear, Error *error)
 {
-    bool pfm;
+    bool pfm = false;
     if (!is_pfm(path, &pfm, error))
         return NULL;
     *linear = pfm;
@@ -48,8 +48,8 @@ static bool check_alike(const char *const paths[2], Image *const images[2], cons
 {
     static const char *const NAMES[] = {"a PNG of 8 bits", "a PNG of 16 bits", "a PFM"};
     if (formats[0] != formats[1])
-        return error_set(error, ERROR_USAGE, "cannot compare: %s is %s, %s is %s", paths[0], NAMES[formats[0]],
-                         paths[1], NAMES[formats[1]]);
+        return error_set(error, ERROR_USAGE, "cannot compare: %s is %s, %s is %s", paths[0],
+                         NAMES[formats[0]], paths[1], NAMES[formats[1]]);
     if (linear[0] != linear[1])
         return error_set(error, ERROR_USAGE, "cannot compare: %s has %s levels, %s has %s ones", paths[0],
                          linear[0] ? "linear" : "sRGB", paths[1], linear[1] ? "linear" : "sRGB");

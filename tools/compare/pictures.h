@@ -22,8 +22,8 @@ typedef struct Pictures {
 f64 pictures_peak(const Pictures *pictures);
 
 // crop and mask may be NULL. The format is told by the content. A grey picture beside a coloured one is taken
-// as coloured, one without alpha beside one with it as opaque. On failure *pictures needs no pictures_destroy;
-// ERROR_USAGE: they cannot be compared as asked.
+// as coloured, one without alpha beside one with it as opaque. On failure *pictures needs no
+// pictures_destroy; ERROR_USAGE: they cannot be compared as asked.
 bool pictures_read(const char *const paths[2], const Region *crop, const char *mask, Pictures *pictures,
                    Error *error);
 

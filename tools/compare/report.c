@@ -54,11 +54,12 @@ bool report_text(const Options *options, const Pictures *pictures, const Metrics
         printf(", from %u, %u", r.x, r.y);
     if (m->left_out_pixels > 0)
         printf(", %llu pixels left out", (unsigned long long)m->left_out_pixels);
-    printf("\n  differing: %llu pixels, %.6g %%; %llu values, %.6g %%\n", (unsigned long long)m->different_pixels,
-           percent(m->different_pixels, m->pixels), (unsigned long long)m->different_values,
-           percent(m->different_values, m->values));
+    printf("\n  differing: %llu pixels, %.6g %%; %llu values, %.6g %%\n",
+           (unsigned long long)m->different_pixels, percent(m->different_pixels, m->pixels),
+           (unsigned long long)m->different_values, percent(m->different_values, m->values));
     print_limits(options, pictures, m);
-    printf("  mean %.6g, RMSE %.6g, PSNR %.6g dB, FLIP mean %.6g", m->mean_abs, m->rmse, m->psnr, m->flip_mean);
+    printf("  mean %.6g, RMSE %.6g, PSNR %.6g dB, FLIP mean %.6g", m->mean_abs, m->rmse, m->psnr,
+           m->flip_mean);
     if (pictures->format == FORMAT_PFM)
         printf(", at most %u ulp", m->max_ulp);
     printf("\n");
@@ -94,8 +95,8 @@ static json_t *worst_object(const Pictures *pictures, const Metrics *m)
     if (!m->worst.present)
         return json_null();
     return json_pack("{s:o, s:o, s:s, s:o, s:o}", "x", whole(m->worst.x), "y", whole(m->worst.y), "channel",
-                     channel_name(pictures->images[0]->channels, m->worst.channel), "a", sample(m->worst.a), "b",
-                     sample(m->worst.b));
+                     channel_name(pictures->images[0]->channels, m->worst.channel), "a", sample(m->worst.a),
+                     "b", sample(m->worst.b));
 }
 
 static json_t *limits_object(const Options *options, const Pictures *pictures)
@@ -108,21 +109,29 @@ static json_t *limits_object(const Options *options, const Pictures *pictures)
 
 static json_t *region_object(Region r)
 {
-    return json_pack("{s:o, s:o, s:o, s:o}", "x", whole(r.x), "y", whole(r.y), "width", whole(r.width), "height",
-                     whole(r.height));
+    return json_pack("{s:o, s:o, s:o, s:o}", "x", whole(r.x), "y", whole(r.y), "width", whole(r.width),
+                     "height", whole(r.height));
 }
 
 static json_t *metrics_object(const Pictures *pictures, const Metrics *m)
 {
     const bool pfm = pictures->format == FORMAT_PFM;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "pixels",
-                     whole(m->pixels), "left_out_pixels", whole(m->left_out_pixels), "values", whole(m->values),
-                     "different_pixels", whole(m->different_pixels), "different_values",
-                     whole(m->different_values), "failed_values", whole(m->failed_values), "hard_failed_values",
-                     whole(m->hard_failed_values), "nan_values", whole(m->nan_values), "max_abs",
-                     number(m->max_abs), "mean_abs", number(m->mean_abs), "rmse", number(m->rmse), "psnr_db",
-                     number(m->psnr), "max_ulp", pfm ? whole(m->max_ulp) : json_null(), "flip_mean",
-                     number(m->flip_mean), "worst", worst_object(pictures, m));
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                     "pixels", whole(m->pixels),
+                     "left_out_pixels", whole(m->left_out_pixels),
+                     "values", whole(m->values),
+                     "different_pixels", whole(m->different_pixels),
+                     "different_values", whole(m->different_values),
+                     "failed_values", whole(m->failed_values),
+                     "hard_failed_values", whole(m->hard_failed_values),
+                     "nan_values", whole(m->nan_values),
+                     "max_abs", number(m->max_abs),
+                     "mean_abs", number(m->mean_abs),
+                     "rmse", number(m->rmse),
+                     "psnr_db", number(m->psnr),
+                     "max_ulp", pfm ? whole(m->max_ulp) : json_null(),
+                     "flip_mean", number(m->flip_mean),
+                     "worst", worst_object(pictures, m));
 }
 
 bool report_json(const Options *options, const Pictures *pictures, const Metrics *m, Error *error)
@@ -136,10 +145,15 @@ bool report_json(const Options *options, const Pictures *pictures, const Metrics
             paths[i] = json_null();
     }
     json_t *root =
-        json_pack("{s:s, s:b, s:o, s:o, s:s, s:o, s:o, s:o}", "schema", "clrt-compare/1", "same", m->same, "a",
-                  paths[0], "b", paths[1], "format", FORMATS[pictures->format], "channels",
-                  whole(pictures->images[0]->channels), "region", region_object(pictures->region), "limits",
-                  limits_object(options, pictures));
+        json_pack("{s:s, s:b, s:o, s:o, s:s, s:o, s:o, s:o}",
+                  "schema", "clrt-compare/1",
+                  "same", m->same,
+                  "a", paths[0],
+                  "b", paths[1],
+                  "format", FORMATS[pictures->format],
+                  "channels", whole(pictures->images[0]->channels),
+                  "region", region_object(pictures->region),
+                  "limits", limits_object(options, pictures));
     json_t *metrics = metrics_object(pictures, m);
     const bool made = root && metrics && json_object_update(root, metrics) == 0;
     const bool written = made && json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0;

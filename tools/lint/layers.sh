@@ -43,8 +43,8 @@ check_order kernels "shared" base shapes accel texture material light stages
 
 for folder in host/*/ kernels/*/; do
     case " host/base/ host/image/ host/scene/ host/assets/ host/accel/ host/layout/ host/device/ \
-host/render/ host/output/ host/cli/ kernels/shared/ kernels/base/ kernels/shapes/ kernels/accel/ kernels/texture/ \
-kernels/material/ kernels/light/ kernels/stages/ " in
+host/render/ host/output/ host/cli/ kernels/shared/ kernels/base/ kernels/shapes/ \
+kernels/accel/ kernels/texture/ kernels/material/ kernels/light/ kernels/stages/ " in
         *" $folder "*) ;;
         *) complain "$folder: has no place in the order of tools/lint/layers.sh" ;;
     esac
