@@ -43,7 +43,8 @@ void stats_print(const RunStats *stats, FILE *stream)
         fprintf(stream, "%s %s %llu", i ? "," : "", RAY_KINDS[i], (unsigned long long)render->rays[i]);
     fprintf(stream, "\nmemory    device %.1f MiB: scene %.1f, state %.1f, film %.1f; host %.1f MiB\n",
             (f64)stats->device_bytes_peak / MIB, (f64)render->scene_bytes / MIB,
-            (f64)render->state_bytes / MIB, (f64)render->film_bytes / MIB, (f64)stats_host_bytes_peak() / MIB);
+            (f64)render->state_bytes / MIB, (f64)render->film_bytes / MIB,
+            (f64)stats_host_bytes_peak() / MIB);
     fprintf(stream, "launches  %u, %u rows a band, %u tiles in flight\nfeatures ", render->launches,
             render->band_rows, render->groups);
     for (u32 i = 0; i < FEATURE_COUNT; i++)
@@ -69,23 +70,31 @@ static json_t *features_to_json(FeatureSet features)
     return names;
 }
 
+static json_t *seconds_to_json(const RunStats *stats)
+{
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f}", "total", stats->total_seconds, "device",
+                     stats->device_seconds, "scene", stats->parse_seconds, "layout", stats->layout_seconds,
+                     "compile", stats->render->compile_seconds, "trace", stats->render->trace_seconds);
+}
+
+static json_t *bytes_to_json(const RunStats *stats)
+{
+    const RenderStats *render = stats->render;
+    return json_pack("{s:I, s:I, s:I, s:I, s:I}", "device_peak", (json_int_t)stats->device_bytes_peak, "scene",
+                     (json_int_t)render->scene_bytes, "state", (json_int_t)render->state_bytes, "film",
+                     (json_int_t)render->film_bytes, "host_peak", (json_int_t)stats_host_bytes_peak());
+}
+
 static json_t *to_json(const RunStats *stats)
 {
     const RenderStats *render = stats->render;
     json_t *name = json_string(stats->device_name); // NULL where it is no UTF-8
-    return json_pack(
-        "{s:i, s:i, s:o?, s:{s:f, s:f, s:f, s:f, s:f, s:f}, s:f, s:o, s:{s:I, s:I, s:I, s:I, s:I}, s:i, s:i, "
-        "s:i, s:o}",
-        "width", (int)stats->width, "height", (int)stats->height, "device", name, //
-        "seconds", "total", stats->total_seconds, "device", stats->device_seconds, "scene",
-        stats->parse_seconds, "layout", stats->layout_seconds, "compile", render->compile_seconds, "trace",
-        render->trace_seconds, //
-        "rays_per_second", rays_a_second(render), "rays", rays_to_json(render), //
-        "bytes", "device_peak", (json_int_t)stats->device_bytes_peak, "scene",
-        (json_int_t)render->scene_bytes, "state", (json_int_t)render->state_bytes, "film", (json_int_t)render->film_bytes, "host_peak",
-        (json_int_t)stats_host_bytes_peak(), //
-        "launches", (int)render->launches, "band_rows", (int)render->band_rows, "tiles_in_flight",
-        (int)render->groups, "features", features_to_json(stats->layout->features));
+    return json_pack("{s:i, s:i, s:o?, s:o, s:o, s:o, s:f, s:i, s:i, s:i, s:o}", "width", (int)stats->width,
+                     "height", (int)stats->height, "device", name, "seconds", seconds_to_json(stats), "bytes",
+                     bytes_to_json(stats), "rays", rays_to_json(render), "rays_per_second",
+                     rays_a_second(render), "launches", (int)render->launches, "band_rows",
+                     (int)render->band_rows, "tiles_in_flight", (int)render->groups, "features",
+                     features_to_json(stats->layout->features));
 }
 
 bool stats_write_json(const RunStats *stats, const char *path, Error *error)

@@ -81,11 +81,12 @@ static bool read_already(Parser *parser, const FileContent *content, const Token
         const FileIdentity *other = &parser->identities[i];
         if (!other->known || other->device != content->device || other->inode != content->inode)
             continue;
+        char place[PLACE_SHOWN_MAX];
         if (other->open)
             parser_error(parser, name, "the file includes itself, directly or through others");
         else
-            parser_error(parser, name, "the file is included already, at %s:%u",
-                         parser->scene->files[other->included_at.file], other->included_at.line);
+            parser_error(parser, name, "the file is included already, at %s",
+                         parser_show_place(parser, other->included_at, place));
         return true;
     }
     return false;
@@ -106,7 +107,8 @@ void include_parse(Parser *parser, const Statement *statement, const Token *word
     Error error;
     if (!file_read(path, true, parser->arena, &content, &error)) {
         parser->out_of_memory |= error.code == ERROR_MEMORY;
-        parser_error(parser, &name, "cannot read %s: %s", path, error.text);
+        char shown[TOKEN_SHOWN_MAX];
+        parser_error(parser, &name, "cannot read %s: %s", parser_show(&name, shown), error.text);
         return;
     }
     if (read_already(parser, &content, &name))

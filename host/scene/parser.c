@@ -35,7 +35,18 @@ const char *parser_show(const Token *token, char shown[TOKEN_SHOWN_MAX])
     u32 length = whole ? token->length : BYTES_MAX;
     while (!whole && length > 0 && ((unsigned char)token->text[length] & 0xC0) == 0x80)
         --length; // not within a character
-    snprintf(shown, TOKEN_SHOWN_MAX, "'%.*s%s'", (int)length, token->text, whole ? "" : "...");
+    const char *quote = token->kind == TOKEN_STRING ? "" : "'";
+    snprintf(shown, TOKEN_SHOWN_MAX, "%s%.*s%s%s", quote, (int)length, token->text, whole ? "" : "...",
+             quote);
+    return shown;
+}
+
+const char *parser_show_place(const Parser *parser, SourcePos place, char shown[PLACE_SHOWN_MAX])
+{
+    if (place.file == parser->input->file)
+        snprintf(shown, PLACE_SHOWN_MAX, "line %u", place.line);
+    else
+        snprintf(shown, PLACE_SHOWN_MAX, "%s:%u", parser->scene->files[place.file], place.line);
     return shown;
 }
 

@@ -62,9 +62,13 @@ void parser_advance(Parser *parser);
 void parser_error(Parser *parser, const Token *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// "'abc'" or "the end of the file"; long text is cut.
+// "'abc'", a string as it is written, or "the end of the file"; long text is cut.
 enum { TOKEN_SHOWN_MAX = 48 };
 const char *parser_show(const Token *token, char shown[TOKEN_SHOWN_MAX]);
+
+// "line 3", or "parts/trees.txt:3" where that is another file than the current one.
+enum { PLACE_SHOWN_MAX = 256 };
+const char *parser_show_place(const Parser *parser, SourcePos place, char shown[PLACE_SHOWN_MAX]);
 
 SourcePos parser_position(const Parser *parser, const Token *token);
 

@@ -22,7 +22,6 @@ static const Property IMAGE_PROPERTIES[] = {
 _Static_assert(offsetof(ImageSettings, height) == offsetof(ImageSettings, width) + sizeof(u32),
                "size is read as one array");
 
-extern const BlockType IMAGE_BLOCK, CAMERA_BLOCK, RENDER_BLOCK, OUTPUT_BLOCK, ENVIRONMENT_BLOCK;
 const BlockType IMAGE_BLOCK = BLOCK_TYPE("image", IMAGE_PROPERTIES, NULL);
 
 // ---- camera ---------------------------------------------------------------------------------
@@ -157,8 +156,9 @@ static void stand_once(Parser *parser, const Statement *statement, const Token *
 {
     SourcePos *first = &parser->once[statement->kind];
     if (first->line > 0) {
-        parser_error(parser, word, "'%s' stands once in a scene; the first is at %s:%u", statement->name,
-                     parser->scene->files[first->file], first->line);
+        char place[PLACE_SHOWN_MAX];
+        parser_error(parser, word, "'%s' stands once in a scene; the first is at %s", statement->name,
+                     parser_show_place(parser, *first, place));
         return;
     }
     *first = parser_position(parser, word);

@@ -130,6 +130,12 @@ static bool check_forms(Parser *parser, const Block *block, const char *const fo
     return complete[0] || complete[1];
 }
 
+// The axis in which min is not below max; NULL where there is none.
+static const char *flat_axis(Vec3 min, Vec3 max)
+{
+    return !(min.x < max.x) ? "x" : !(min.y < max.y) ? "y" : !(min.z < max.z) ? "z" : NULL;
+}
+
 static void check_box(Parser *parser, Block *block)
 {
     check_transform(parser, block);
@@ -142,13 +148,12 @@ static void check_box(Parser *parser, Block *block)
         const Vec3 center = *min, half = vec_scale(*max, 0.5);
         *min = vec_sub(center, half);
         *max = vec_add(center, half);
-    } else if (known(block, "min") && known(block, "max")) {
-        const char *axis = !(min->x < max->x)   ? "x"
-                           : !(min->y < max->y) ? "y"
-                           : !(min->z < max->z) ? "z"
-                                                : NULL;
-        if (axis)
-            parser_error(parser, block_later(block, "min", "max"), "'min' must be below 'max' in %s", axis);
+        if (flat_axis(*min, *max))
+            parser_error(parser, block_place(block, "size"), "'size' is lost beside 'center' in %s",
+                         flat_axis(*min, *max));
+    } else if (known(block, "min") && known(block, "max") && flat_axis(*min, *max)) {
+        parser_error(parser, block_later(block, "min", "max"), "'min' must be below 'max' in %s",
+                     flat_axis(*min, *max));
     }
 }
 

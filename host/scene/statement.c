@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-extern const BlockType IMAGE_BLOCK, CAMERA_BLOCK, RENDER_BLOCK, OUTPUT_BLOCK, ENVIRONMENT_BLOCK;
-
 #define SETTINGS(name, once, block, member) \
     {name, FORM_BLOCK, settings_parse, false, once, block, offsetof(Scene, member)}
 #define VALUE(name, once, member) \

@@ -41,6 +41,8 @@ bool statement_parse_in_object(Parser *parser, Group *inside);
 
 // ---- in their own files ---------------------------------------------------------------------
 
+extern const BlockType IMAGE_BLOCK, CAMERA_BLOCK, RENDER_BLOCK, OUTPUT_BLOCK, ENVIRONMENT_BLOCK;
+
 void settings_parse(Parser *parser, const Statement *statement, const Token *word, Group *inside);
 void value_statement_parse(Parser *parser, const Statement *statement, const Token *word, Group *inside);
 void light_parse(Parser *parser, const Statement *statement, const Token *word, Group *inside);

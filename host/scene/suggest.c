@@ -41,9 +41,9 @@ void suggest_offer(Suggestion *suggestion, const char *candidate, size_t length)
 {
     const size_t word = suggestion->word_length;
     const size_t longer = word > length ? word : length;
-    const u32 allowed = (u32)(longer + 2) / 4; // none for one letter, one from two, two from six
+    const u32 allowed = (u32)(longer + 2) / 4; // one from two letters, two from six
     const size_t difference = word > length ? word - length : length - word;
-    if (longer > SUGGEST_WORD_MAX || longer < 2 || difference > allowed)
+    if (longer > SUGGEST_WORD_MAX || word < 2 || difference > allowed)
         return;
     const u32 steps = distance(suggestion->word, word, candidate, length);
     if (steps > allowed || steps >= length || (suggestion->best && steps >= suggestion->best_distance))

@@ -1,5 +1,6 @@
 #include "scene/transform.h"
 
+#include <math.h>
 #include <string.h>
 
 static bool then(Affine *transform, Affine next)
@@ -70,10 +71,18 @@ void transform_check(Parser *parser, const Block *block, const Affine *transform
         return; // as most shapes have it
     // Factors that are each fine may multiply to more than a number holds, or to nothing.
     const f64 largest = 1e150, smallest = 1e-150;
-    f64 values[3];
-    affine_singular_values(*transform, values);
+    const Vec3 *row = transform->row;
+    const f64 norm = fmax(vec_length(row[0]), fmax(vec_length(row[1]), vec_length(row[2])));
     const f64 moved = vec_length(transform->translation);
-    if (!(values[0] <= largest && values[2] >= smallest && moved <= largest))
+    bool good = norm <= largest && moved <= largest;
+    // The smallest singular value is at least the determinant over the square of the largest.
+    const f64 ordinary = 1e30;
+    if (good && !(norm <= ordinary && fabs(affine_determinant(*transform)) >= 1 / ordinary)) {
+        f64 values[3];
+        affine_singular_values(*transform, values);
+        good = values[2] >= smallest;
+    }
+    if (!good)
         parser_error(parser, block->word, "the transforms of this %s multiply out of range",
                      block->type->title);
 }

@@ -188,7 +188,7 @@ static inline uint traverse_object(const Hierarchy *scene, const BatchRays *rays
 
 #if HAS_INSTANCES
 // Rays of mask in the object space of the instance; t is the same number in both spaces.
-static inline void enter_instance(const PrimitiveLanes *p, const BatchRays *rays, uint mask, BatchRays *local)
+static inline void enter_instance(const PrimitiveLanes *p, const BatchRays *rays, uint mask, BatchRays *inner)
 {
     for (int first = 0; first < BATCH; first += LANES) {
         if (!(mask >> first & ((1u << LANES) - 1u)))
@@ -198,12 +198,12 @@ static inline void enter_instance(const PrimitiveLanes *p, const BatchRays *rays
         const v3 dir = v3_make(VF_LOAD(&rays->dir_x[first]), VF_LOAD(&rays->dir_y[first]),
                                VF_LOAD(&rays->dir_z[first]));
         const v3 from = v3_sub(org, p->c);
-        VF_STORE(v3_dot(p->row0, from), &local->org_x[first]);
-        VF_STORE(v3_dot(p->row1, from), &local->org_y[first]);
-        VF_STORE(v3_dot(p->row2, from), &local->org_z[first]);
-        VF_STORE(v3_dot(p->row0, dir), &local->dir_x[first]);
-        VF_STORE(v3_dot(p->row1, dir), &local->dir_y[first]);
-        VF_STORE(v3_dot(p->row2, dir), &local->dir_z[first]);
+        VF_STORE(v3_dot(p->row0, from), &inner->org_x[first]);
+        VF_STORE(v3_dot(p->row1, from), &inner->org_y[first]);
+        VF_STORE(v3_dot(p->row2, from), &inner->org_z[first]);
+        VF_STORE(v3_dot(p->row0, dir), &inner->dir_x[first]);
+        VF_STORE(v3_dot(p->row1, dir), &inner->dir_y[first]);
+        VF_STORE(v3_dot(p->row2, dir), &inner->dir_z[first]);
     }
 }
 
@@ -212,7 +212,7 @@ static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays,
                                   const bool any_hit, const bool opaque_only)
 {
     BatchSlabs slabs;
-    BatchRays local;
+    BatchRays inner;
     Stack stack;
     uint alive = mask;
     prepare_slabs(rays, &slabs);
@@ -236,8 +236,8 @@ static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays,
                 break;
             if ((p->kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE) {
                 const PrimitiveLanes map = primitive_splat(p);
-                enter_instance(&map, rays, left, &local);
-                found = traverse_object(scene, &local, hits, left, as_int(p->p0), (int)i, any_hit,
+                enter_instance(&map, rays, left, &inner);
+                found = traverse_object(scene, &inner, hits, left, as_int(p->p0), (int)i, any_hit,
                                         opaque_only);
             } else if (!opaque_only || (p->kind & PRIMITIVE_OPAQUE)) {
                 found = test_primitive(scene, rays, hits, left, (int)i, NO_HIT);

@@ -5,6 +5,10 @@
 
 #include "base/lanes.h"
 
+#define VF_SMALLEST_NORMAL 0x1p-126f
+// Added to |x| < 2^22 and taken away again it rounds x to an integer, which the low bits of the sum hold.
+#define VF_ROUND_MAGIC 0x1.8p+23f
+
 // hi + lo, where hi is that sum rounded to nearest: about 48 bits.
 typedef struct { vf hi, lo; } vf2;
 

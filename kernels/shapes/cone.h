@@ -25,17 +25,42 @@ static inline Interval cone_steep_part(vf a, vf b, vf c, vf radius_rate)
                          widening ? (vf)(INFINITY) : vf_min(t0, t1));
 }
 
+// Where the wall is looked at from: from the apex where the cone is pointed enough for rays to pass close by
+// it, so that what is small there is computed from small numbers; else from the middle of the axis.
+typedef struct {
+    vf height, radius;
+} ConeReference;
+
+static inline ConeReference cone_reference(const PrimitiveLanes *p)
+{
+    ConeReference r;
+    const vm pointed = p->p1 > (vf)(0.5f);
+    r.height = pointed ? 2.0f / p->p1 - 1.0f : (vf)(0.0f);
+    r.radius = pointed ? (vf)(0.0f) : cone_radius(p, (vf)(0.0f));
+    return r;
+}
+
 static inline RoundSolid cone_solid(const PrimitiveLanes *p, const RayLanes *ray)
 {
     RoundSolid s = round_solid(p, ray);
-    const v3 o = s.o, d = s.d;
-    const vf radius = cone_radius(p, o.z), rate = p->p1 * -0.5f * d.z;
+    const ConeReference reference = cone_reference(p);
+    const v3 d = s.d;
+    v3 o = v3_make(s.o.x, s.o.y, s.o.z - reference.height);
+    const v3 from = o;
+    const vf dd = v3_dot(d, d);
+    vf shift = closest_shift(&o, d, dd, (vf)(0.0f));
+    const vm near = v3_dot(from, from) < 16.0f * v3_dot(o, o);
+    shift = near ? (vf)(0.0f) : shift;
+    o = v3_select(near, from, o);
+    const vf slope = -0.5f * p->p1;
+    const vf radius = fma(slope, o.z, reference.radius), rate = slope * d.z;
     const vf rho = sqrt(fma(o.x, o.x, o.y * o.y));
     const vf a = difference_of_products(d.x, d.x, rate, rate) + d.y * d.y;
     const vf b = difference_of_products(o.x, d.x, radius, rate) + o.y * d.y;
     const vf c = (rho - radius) * (rho + radius);
     const Interval steep = cone_steep_part(a, b, c, rate);
-    s.wall = interval_select(a < (vf)(0.0f), steep, quadratic_within(a, b, c));
+    const Interval wall = interval_select(a < (vf)(0.0f), steep, quadratic_within(a, b, c));
+    s.wall = interval_make(shift + wall.near, shift + wall.far);
     return s;
 }
 

@@ -116,7 +116,7 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     ray.org = v3_select(instanced, local_org, org);
     ray.dir = v3_select(instanced, local_dir, dir);
     const Row placed_info = row_make(scene->infos, placed, INFO_NUMBERS);
-    material = instanced & (material < (vi)(0)) ? row_int(&placed_info, 0) : material;
+    material = (instanced & (material < (vi)(0))) ? row_int(&placed_info, 0) : material;
 #endif
     const vi kind = row_int(&record, 14) & (int)PRIMITIVE_KIND_MASK;
     surface_primitive(kind, &shape, &ray, t, &surface);

@@ -151,7 +151,7 @@ OUTLINE vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, consta
     rays[RAYS_REFLECTED] += popcount(vm_bits(mirrored.m));
 #if HAS_TRANSMIT
     const NextRay through = next_ray(hit, scatter.transmit_dir, scatter.transmit_weight, throughput,
-                                     hit->inside == hit->inside, params->min_weight, deeper);
+                                     vm_from_bits(~0u), params->min_weight, deeper);
     rays[RAYS_TRANSMITTED] += popcount(vm_bits(through.m));
 #if HAS_BRANCHING
     const vm both = through.m & mirrored.m;

@@ -177,11 +177,13 @@ static void test_names(void **state)
 static void test_report(void **state)
 {
     (void)state;
-    Parsed p = parse_good("\xEF\xBB\xBF# \xC3\xA4\n  sphere { center 0 0 0 radius 1 }\r\nbox{ center 0 0 0 size 1 }");
+    Parsed p = parse_good("\xEF\xBB\xBF# \xC3\xA4\n"
+                          "  sphere { center 0 0 0 radius 1 }\r\nbox{ center 0 0 0 size 1 }");
     scene_report(p.scene, p.diagnostics, SEVERITY_ERROR, p.scene->shapes[0].at, "no file %d", 7);
     scene_report(p.scene, p.diagnostics, SEVERITY_WARNING, p.scene->shapes[1].at, "odd");
     char *text = printed(p.diagnostics);
-    assert_string_equal(text, "t:2:3: error: no file 7\n      sphere { center 0 0 0 radius 1 }\n      ^~~~~~\n"
+    assert_string_equal(text, "t:2:3: error: no file 7\n"
+                              "      sphere { center 0 0 0 radius 1 }\n      ^~~~~~\n"
                               "t:3:1: warning: odd\n    box{ center 0 0 0 size 1 }\n    ^~~\n");
     free(text);
     parsed_end(&p);

@@ -26,7 +26,9 @@ static int begin(void **state)
 {
     (void)state;
     strcpy(folder, "/tmp/clrt-include-XXXXXX");
-    return mkdtemp(folder) && mkdir(path_of("sub"), 0700) == 0 && mkdir(path_of("sub/deep"), 0700) == 0 ? 0 : 1;
+    if (!mkdtemp(folder) || mkdir(path_of("sub"), 0700) != 0)
+        return 1;
+    return mkdir(path_of("sub/deep"), 0700);
 }
 
 static int end(void **state)
@@ -53,7 +55,8 @@ static void expect_printed(const char *expected)
 static void test_nested(void **state)
 {
     (void)state;
-    write_file("a.txt", "sphere { center 1 0 0 radius 1 }\ninclude \"sub/c.txt\" sphere { center 5 0 0 radius 1 }\n"
+    write_file("a.txt", "sphere { center 1 0 0 radius 1 }\n"
+                        "include \"sub/c.txt\" sphere { center 5 0 0 radius 1 }\n"
                         "include \"b.txt\" # x");
     write_file("b.txt", "sphere { center 6 0 0 radius 1 material m }");
     write_file("sub/c.txt", "sphere { center 2 0 0 radius 1 }\ninclude \"deep/e.txt\"\n"
@@ -100,16 +103,20 @@ static void test_twice_and_cycles(void **state)
     (void)state;
     write_file("a.txt", "include \"b.txt\"\ninclude \"./sub/../b.txt\"\n");
     write_file("b.txt", "");
-    expect_printed("%s/a.txt:2:9: error: the file is included already, at %s/a.txt:1\n"
+    expect_printed("%s/a.txt:2:9: error: the file is included already, at line 1\n"
                    "    include \"./sub/../b.txt\"\n            ^~~~~~~~~~~~~~~~\n");
     assert_int_equal(symlink("b.txt", path_of("link.txt")), 0);
     write_file("a.txt", "include \"b.txt\"\ninclude \"link.txt\"\n");
-    expect_printed("%s/a.txt:2:9: error: the file is included already, at %s/a.txt:1\n"
+    expect_printed("%s/a.txt:2:9: error: the file is included already, at line 1\n"
                    "    include \"link.txt\"\n            ^~~~~~~~~~\n");
     write_file("a.txt", "include \"b.txt\"");
     write_file("b.txt", "ambient 1\ninclude \"a.txt\" background 1");
     expect_printed("%s/b.txt:2:9: error: the file includes itself, directly or through others\n"
                    "    include \"a.txt\" background 1\n            ^~~~~~~\n");
+    write_file("a.txt", "camera { fov 50 }\ninclude \"b.txt\"");
+    write_file("b.txt", "camera { fov 40 }");
+    expect_printed("%s/b.txt:1:1: error: 'camera' stands once in a scene; the first is at %s/a.txt:1\n"
+                   "    camera { fov 40 }\n    ^~~~~~\n");
     write_file("b.txt", "include \"b.txt\"");
     expect_printed("%s/b.txt:1:9: error: the file includes itself, directly or through others\n"
                    "    include \"b.txt\"\n            ^~~~~~~\n");
@@ -119,11 +126,11 @@ static void test_unreadable(void **state)
 {
     (void)state;
     write_file("a.txt", "include \"none.txt\"\nsphere { }");
-    expect_printed("%s/a.txt:1:9: error: cannot read %s/none.txt: No such file or directory\n"
+    expect_printed("%s/a.txt:1:9: error: cannot read \"none.txt\": No such file or directory\n"
                    "    include \"none.txt\"\n            ^~~~~~~~~~\n"
                    "%s/a.txt:2:1: error: sphere lacks 'center', 'radius'\n    sphere { }\n    ^~~~~~\n");
     write_file("a.txt", "include \"sub\"");
-    expect_printed("%s/a.txt:1:9: error: cannot read %s/sub: Is a directory\n"
+    expect_printed("%s/a.txt:1:9: error: cannot read \"sub\": Is a directory\n"
                    "    include \"sub\"\n            ^~~~~\n");
     write_file("a.txt", "include \"\"");
     expect_printed("%s/a.txt:1:9: error: the file name is empty\n    include \"\"\n            ^~\n");
@@ -134,7 +141,7 @@ static void test_pipe_is_not_waited_for(void **state)
     (void)state;
     assert_int_equal(mkfifo(path_of("pipe"), 0600), 0);
     write_file("a.txt", "include \"pipe\"");
-    expect_printed("%s/a.txt:1:9: error: cannot read %s/pipe: not a regular file\n"
+    expect_printed("%s/a.txt:1:9: error: cannot read \"pipe\": not a regular file\n"
                    "    include \"pipe\"\n            ^~~~~~\n");
 }
 

@@ -87,8 +87,10 @@ static void test_places(void **state)
 {
     (void)state;
     // Columns are characters; a tab is one, a byte-order mark none; CR LF ends a line.
-    const char *text = "\xEF\xBB\xBF" "a\t\"\xC3\xA4\xE2\x82\xAC\" b\r\n  c # \xC3\xA4\n\n\xC3\xA4 d # \xC3\xA4";
-    static const u32 places[][3] = {{1, 1, 1}, {1, 3, 4}, {1, 8, 1}, {2, 3, 1}, {4, 1, 1}, {4, 3, 1}, {4, 8, 0}};
+    const char *text =
+        "\xEF\xBB\xBF" "a\t\"\xC3\xA4\xE2\x82\xAC\" b\r\n  c # \xC3\xA4\n\n\xC3\xA4 d # \xC3\xA4";
+    static const u32 places[][3] = {{1, 1, 1}, {1, 3, 4}, {1, 8, 1}, {2, 3, 1}, {4, 1, 1}, {4, 3, 1},
+                                    {4, 8, 0}};
     Lexer lexer = lexer_begin(text, strlen(text));
     for (u32 i = 0; i < sizeof places / sizeof *places; ++i) {
         Token token;

@@ -45,7 +45,8 @@ static void test_area_lights(void **state)
                                     "    light sphere { center 1 2 3 radius 4 radiance 5 samples 6 }\n"
                                     "    ^~~~~\n"
                                     "t:3:1: error: rectangle lights are not supported yet\n"
-                                    "    light rectangle { corner 1 2 3 edge1 1 0 0 edge2 0 1 0 radiance 7 8 9 }\n"
+                                    "    light rectangle { corner 1 2 3 "
+                                    "edge1 1 0 0 edge2 0 1 0 radiance 7 8 9 }\n"
                                     "    ^~~~~\n");
     const Scene *s = p.scene;
     assert_int_equal(s->lights[0].kind, LIGHT_SPHERE);
@@ -194,7 +195,8 @@ static void test_pbr(void **state)
     assert_true(m[2].pbr_transmit == 1 && m[2].ior == 2);
     assert_int_equal(m[2].normal_map, 0);
     parsed_end(&p);
-    expect_error("material a pbr { metallic 1 1 }", "1:29: unexpected '1'; 'metallic' takes a number or a texture");
+    expect_error("material a pbr { metallic 1 1 }",
+                 "1:29: unexpected '1'; 'metallic' takes a number or a texture");
 }
 
 static void test_default_material(void **state)
@@ -216,7 +218,8 @@ static void test_namespaces(void **state)
     // A namespace each, and words of the language are names like others.
     Parsed p = parse_good("texture phong checker { } material phong phong { diffuse phong }\n"
                           "object phong { sphere { center 0 0 0 radius 1 material phong } }\n"
-                          "texture specular checker { } material material phong { diffuse specular specular 1 }\n"
+                          "texture specular checker { } material material phong "
+                          "{ diffuse specular specular 1 }\n"
                           "instance phong { material material }");
     assert_int_equal(p.scene->materials[1].diffuse.texture, 0);
     assert_int_equal(p.scene->materials[2].diffuse.texture, 1);

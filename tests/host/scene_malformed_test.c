@@ -34,7 +34,8 @@ static void check_malformed(const char *path)
 {
     Arena *arena = arena_create();
     char expected_path[1000];
-    snprintf(expected_path, sizeof expected_path, "%.*s.expected", (int)(strlen(path) - strlen(".txt")), path);
+    snprintf(expected_path, sizeof expected_path, "%.*s.expected",
+             (int)(strlen(path) - strlen(".txt")), path);
     FileContent expected;
     Error error;
     if (!file_read(expected_path, true, arena, &expected, &error))

@@ -88,11 +88,13 @@ static void test_values_in_the_wrong_place(void **state)
     (void)state;
     expect_error("sphere { 1 center 0 0 0 radius 1 }", "1:10: expected a property of sphere, found '1'");
     expect_error("sphere { center radius 1 }", "1:10: 'center' takes 3 numbers");
-    expect_error("sphere { center 0 0 0 radius 1 material }", "1:32: 'material' takes the name of a material");
-    expect_error("sphere { center 0 0 0 material radius 1 }", "1:23: 'material' takes the name of a material");
+    expect_error("sphere { center 0 0 0 radius 1 material }",
+                 "1:32: 'material' takes the name of a material");
+    expect_error("sphere { center 0 0 0 material radius 1 }",
+                 "1:23: 'material' takes the name of a material");
     expect_error("sphere { center 0 0 0 radius 1 material 5 }",
                  "1:41: 'material' takes the name of a material, not '5'");
-    expect_error("material \"m\" phong { }", "1:10: expected the name of the material, found '\"m\"'");
+    expect_error("material \"m\" phong { }", "1:10: expected the name of the material, found \"m\"");
     expect_error("mesh { file bunny }", "1:13: 'file' takes a file name in quotes, not 'bunny'");
     expect_error("render { shadows 1 }", "1:18: 'shadows' takes on or off, not '1'");
 }

@@ -163,7 +163,7 @@ static void test_colors(void **state)
     assert_vec(p.scene->background, 1e30, 2, 3);
     assert_near(p.scene->ambient.x, 10 / 255.0 / 12.92, 1e-17); // the straight part of the curve
     parsed_end(&p);
-    expect_error("background \"#fff\"", "1:12: '\"#fff\"' is not a color like \"#ff8000\"");
+    expect_error("background \"#fff\"", "1:12: \"#fff\" is not a color like \"#ff8000\"");
     expect_error("background", "1:1: 'background' takes a color: 1 or 3 numbers or \"#rrggbb\"");
     expect_error("ambient 1 2 3 4", "1:15: expected a statement, found '4'");
 }
@@ -193,7 +193,7 @@ static void test_once(void **state)
                                         "environment { file \"a\" }\nenvironment { file \"a\" }"};
     for (u32 i = 0; i < sizeof texts / sizeof *texts; ++i) {
         char expected[100];
-        snprintf(expected, sizeof expected, "2:1: '%.*s' stands once in a scene; the first is at t:1",
+        snprintf(expected, sizeof expected, "2:1: '%.*s' stands once in a scene; the first is at line 1",
                  (int)strcspn(texts[i], " "), texts[i]);
         expect_error(texts[i], expected);
     }

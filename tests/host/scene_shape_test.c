@@ -55,6 +55,7 @@ static void test_box(void **state)
     expect_error("box { center 0 0 0 size 1 0 1 }", "1:27: 'size' must be above 0");
     expect_error("box { center 0 0 0 size 1 1 }", "1:20: 'size' takes 1 or 3 numbers, found 2");
     expect_error("box { max 0 0 0 min 0 0 1 }", "1:17: 'min' must be below 'max' in x");
+    expect_error("box { center 0 1e20 0 size 1 }", "1:23: 'size' is lost beside 'center' in y");
     expect_error("box { }", "1:1: box lacks 'min' and 'max', or 'center' and 'size'");
     expect_error("box { min 0 0 0 max 1 1 1 center 0 0 0 }", "1:27: 'max' and 'center' exclude each other");
     expect_error("box { min 0 0 0 mx 1 1 1 }", "1:17: unknown property 'mx' of box; did you mean 'max'?");
@@ -90,7 +91,8 @@ static void test_triangle(void **state)
 {
     (void)state;
     Parsed p = parse_good("triangle { vertices 0 0 0 1 0 0 0 1 0 }\n"
-                          "triangle { vertices 0 0 0 1 0 0 0 1 0 normals 0 0 1 0 1 1 1 0 1 uvs 0 0 1 0 0 1 }");
+                          "triangle { vertices 0 0 0 1 0 0 0 1 0 normals 0 0 1 0 1 1 1 0 1\n"
+                          "  uvs 0 0 1 0 0 1 }");
     const Shape *s = p.scene->shapes;
     assert_vec(s[0].as.triangle.vertices[2], 0, 1, 0);
     assert_false(s[0].as.triangle.has_normals);
@@ -134,7 +136,8 @@ static void test_cylinder_cone_torus(void **state)
 static void test_mesh(void **state)
 {
     (void)state;
-    const char *text = "mesh { file \"a.obj\" } mesh { file \"/b.obj\" smooth on } mesh { file \"c\" smooth off }";
+    const char *text = "mesh { file \"a.obj\" } mesh { file \"/b.obj\" smooth on } "
+                       "mesh { file \"c\" smooth off }";
     Parsed p = parse_bytes(text, strlen(text));
     assert_int_equal(diagnostics_error_count(p.diagnostics), 3); // parsed, but not supported yet
     assert_string_equal(p.scene->shapes[0].as.mesh.file, "a.obj");
@@ -193,6 +196,12 @@ static void test_singular_transforms(void **state)
     expect_error("sphere { center 0 0 0 radius 1 scale 0 }", "1:38: 'scale' must be other than 0");
     expect_error("sphere { center 0 0 0 radius 1 scale 1e38 scale 1e38 scale 1e38 scale 1e38 }",
                  "1:1: the transforms of this sphere multiply out of range");
+    expect_error("sphere { center 0 0 0 radius 1 scale 1e-38 scale 1e-38 scale 1e-38 scale 1e-38 }",
+                 "1:1: the transforms of this sphere multiply out of range");
+    expect_error("object o { } instance o { translate 1e38 0 0 scale 1e38 scale 1e38 scale 1e38 }",
+                 "1:14: the transforms of this instance multiply out of range");
+    p = parse_good("sphere { center 0 0 0 radius 1 scale 1e-38 scale 1e38 1e-38 1 }");
+    parsed_end(&p);
 }
 
 static void test_objects(void **state)
@@ -243,7 +252,8 @@ static void test_instance_limit(void **state)
     snprintf(text + length, sizeof text - length, "instance a23 { }\ninstance a0 { }\n");
     Parsed p = parse_good(text); // what is defined and not placed does not count
     parsed_end(&p);
-    snprintf(text + length, sizeof text - length, "instance a23{}\ninstance a0{}\ninstance a0{}\ninstance a0{}");
+    snprintf(text + length, sizeof text - length,
+             "instance a23{}\ninstance a0{}\ninstance a0{}\ninstance a0{}");
     expect_error(text, "83:1: the scene places more than 16777216 instances here");
     snprintf(text + length, sizeof text - length, "instance a79 { }\n");
     expect_error(text, "81:1: the scene places more than 16777216 instances here");

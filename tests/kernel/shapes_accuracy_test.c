@@ -247,6 +247,21 @@ static bool starts_on_surface(const Case *c, real grow)
     return on_surface;
 }
 
+// Whether t is a point of the wall of an open cylinder or cone close to its rim, or on a ray that may miss.
+static bool at_open_rim(const Case *c, double t, real grow, bool may_miss)
+{
+    const Shape *s = &c->placed->shape;
+    const bool cone = s->kind == SHAPE_CONE;
+    if ((!cone && s->kind != SHAPE_CYLINDER) || (cone ? s->as.cone.caps : s->as.cylinder.caps))
+        return false;
+    const double height = vec_length(cone ? vec_sub(s->as.cone.top, s->as.cone.base)
+                                          : vec_sub(s->as.cylinder.top, s->as.cylinder.base));
+    real distance, uv[2];
+    Real3 normal;
+    reference_piece(s, 0, real3_add(c->o, real3_scale(c->d, t)), &distance, &normal, uv);
+    return fabsl(distance) <= grow && (may_miss || fminl(uv[1], 1 - uv[1]) * height <= 4 * grow);
+}
+
 // Whether t is an answer for the shape with its surface `ulps` away.
 static bool acceptable(const Case *c, double t, double ulps)
 {
@@ -263,15 +278,20 @@ static bool acceptable(const Case *c, double t, double ulps)
         slack += grow / rate;
         sideways += grow / rate * real3_length(c->d);
     }
-    const real more = reference_hit(shape, c->o, c->d, sideways, 0);
-    const real less = reference_hit(shape, c->o, c->d, -sideways, 0);
-    const bool missed = isinf(more) || isinf(less), on_surface = starts_on_surface(c, grow);
+    real low = INFINITY, high = 0;
+    for (int k = 0; k < 9; ++k) {
+        const real hit = reference_hit(shape, c->o, c->d, sideways * (k % 3 - 1), grow * (k / 3 - 1), 0);
+        low = fminl(low, hit);
+        high = fmaxl(high, hit);
+    }
+    const bool on_surface = starts_on_surface(c, grow);
     if (isinf(t))
-        return missed || (on_surface && flat);
-    if (flat && isinf(more))
+        return isinf(high) || (on_surface && flat);
+    if (flat && isinf(low))
         return on_surface && t <= 2 * slack;
-    const real low = on_surface ? 0 : fminl(more, less) - slack;
-    return t >= low && t <= (missed ? (real)INFINITY : fmaxl(more, less) + slack);
+    if (t >= (on_surface ? 0 : low - slack) && t <= high + slack)
+        return true;
+    return at_open_rim(c, t, grow, isinf(high));
 }
 
 static void judge_t(const Case *c, const RayTable *table, size_t i, Verdicts *v)
@@ -282,12 +302,20 @@ static void judge_t(const Case *c, const RayTable *table, size_t i, Verdicts *v)
         ulps *= 2;
     // A disk or triangle may be missed by its plane's start being behind by a rounding.
     if (ulps > ALLOWED_ULPS) {
-        if (getenv("DBG")&&v->wrong<8) for(double u=.5;u<=64;u*=2) {real g=u*U*c->scale; printf("   %g: %.12Lg %.12Lg  grow %Lg\n",u,reference_hit(&c->placed->shape,c->o,c->d,g,0),reference_hit(&c->placed->shape,c->o,c->d,-g,0),g);}
         if (v->wrong++ < 8)
             print_message("ray %zu (%a %a %a) (%a %a %a): t %.9g, exact %.9Lg, %g input ulps; scale %g\n", i, (double)ray_number(table,i,0),(double)ray_number(table,i,1),(double)ray_number(table,i,2),(double)ray_number(table,i,3),(double)ray_number(table,i,4),(double)ray_number(table,i,5), t,
-                          reference_hit(&c->placed->shape, c->o, c->d, 0, 0), ulps, c->scale);
+                          reference_hit(&c->placed->shape, c->o, c->d, 0, 0, 0), ulps, c->scale);
     }
     v->worst_ulps = fmax(v->worst_ulps, ulps);
+}
+
+// Of the surface: on a cone that of a circle which shrinks towards the apex.
+static double bend_radius(const Placed *p, real v)
+{
+    if (p->shape.kind != SHAPE_CONE)
+        return p->feature;
+    const double r = p->shape.as.cone.radius, top = p->shape.as.cone.top_radius;
+    return fmax(r + (top - r) * (double)v, 1e-9);
 }
 
 static void judge_surface(const Case *c, const RayTable *table, size_t i, Verdicts *v)
@@ -309,8 +337,7 @@ static void judge_surface(const Case *c, const RayTable *table, size_t i, Verdic
         Real3 normal;
         if (!reference_piece(&p->shape, k, q, &off, &normal, uv) || fabsl(off) > slack)
             continue;
-        // On a cone the direction is that of a circle which shrinks towards the apex.
-        const double bend = p->shape.kind == SHAPE_CONE ? 0.02 : p->feature;
+        const double bend = bend_radius(p, uv[1]);
         const double e = (double)real3_length(real3_sub(normal, back)) / (64 * U + 16 * U * c->scale / bend);
         if (e >= normal_error)
             continue;
@@ -331,7 +358,7 @@ static void judge_surface(const Case *c, const RayTable *table, size_t i, Verdic
         const double eu = wraps ? fmin(fabs(du), fmin(fabs(du - 1), fabs(du + 1))) : fabs(du);
         const double ev = p->shape.kind == SHAPE_TORUS ? fmin(fabs(dv), fmin(fabs(dv - 1), fabs(dv + 1))) : fabs(dv);
         const double pole = p->shape.kind == SHAPE_SPHERE ? fmax(hypot((double)normal.x, (double)normal.z), 1e-6) :
-                            p->shape.kind == SHAPE_CONE ? 0.02 : p->shape.kind == SHAPE_TORUS ? 0.02 : 1;
+                            p->shape.kind == SHAPE_CONE ? fmin(1, bend_radius(p, uv[1])) : p->shape.kind == SHAPE_TORUS ? 0.02 : 1;
         uv_error = fmax(eu * pole, ev * (p->shape.kind == SHAPE_TORUS ? 0.02 : 1)) / (16 * U + 16 * U * c->scale / p->feature);
     }
     v->worst_normal = fmax(v->worst_normal, normal_error);
@@ -351,7 +378,7 @@ static void judge(const Placed *placed, const RayTable *table, Verdicts *v)
                               ray_number(table, i, RAY_DIR + 2));
         c.o = real_map_point(&p->inverse, o);
         c.d = real_map_direction(&p->inverse, d);
-        const real exact = reference_hit(&p->shape, c.o, c.d, 0, 0);
+        const real exact = reference_hit(&p->shape, c.o, c.d, 0, 0, 0);
         const double t = hit_number(table, i, HIT_T);
         const double along = isinf(t) ? (isinf(exact) ? 0 : (double)exact) : t;
         c.scale = magnitude(p, table, i, along);

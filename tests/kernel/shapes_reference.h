@@ -31,8 +31,8 @@ Real3 real_map_point(const RealMap *map, Real3 p);
 Real3 real_map_direction(const RealMap *map, Real3 d);
 
 // The smallest root t > tmin of the ray with the shape, all of whose surfaces are moved outward by `grow`
-// (edges of flat shapes likewise); INFINITY where there is none.
-real reference_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin);
+// (edges of flat shapes likewise; ends of cylinders and cones by `longer`); INFINITY where there is none.
+real reference_hit(const Shape *shape, Real3 o, Real3 d, real grow, real longer, real tmin);
 
 // Number of pieces with normals of their own (faces, walls, caps).
 int reference_pieces(const Shape *shape);

@@ -200,7 +200,7 @@ static Round round_of(const Shape *shape)
     return r;
 }
 
-static real round_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin)
+static real round_hit(const Shape *shape, Real3 o, Real3 d, real grow, real longer, real tmin)
 {
     const Round r = round_of(shape);
     const Real3 f = real3_sub(o, r.base);
@@ -213,11 +213,11 @@ static real round_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin
     int kept = 0;
     for (int i = 0; i < count; ++i) {
         const real z = oz + dz * roots[i];
-        if (z >= -grow && z <= r.height + grow && radius + rate * roots[i] >= 0)
+        if (z >= -longer && z <= r.height + longer && radius + rate * roots[i] >= 0)
             roots[kept++] = roots[i];
     }
     for (int end = 0; r.caps && dz != 0 && end < 2; ++end) {
-        const real z = end ? r.height + grow : -grow, t = (z - oz) / dz;
+        const real z = end ? r.height + longer : -longer, t = (z - oz) / dz;
         if (real3_length(real3_add(ox, real3_scale(dx, t))) <= fmaxl(radius + rate * t, 0))
             roots[kept++] = t;
     }
@@ -281,7 +281,7 @@ static real torus_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin
     return first_of(roots, count, tmin);
 }
 
-real reference_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin)
+real reference_hit(const Shape *shape, Real3 o, Real3 d, real grow, real longer, real tmin)
 {
     switch (shape->kind) {
     case SHAPE_SPHERE: {
@@ -300,7 +300,7 @@ real reference_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin)
         return flat_first(shape, o, d, grow, tmin);
     case SHAPE_CYLINDER:
     case SHAPE_CONE:
-        return round_hit(shape, o, d, grow, tmin);
+        return round_hit(shape, o, d, grow, longer, tmin);
     case SHAPE_TORUS:
         return torus_hit(shape, o, d, grow, tmin);
     case SHAPE_MESH:

@@ -23,7 +23,8 @@ static int crossings_ahead(const Primitive *primitive, const Ray *ray, Line *loc
 {
     if (!may_meet(primitive, ray))
         return 0;
-    *local = (Line){transform_point(&primitive->to_local, ray->o), transform_vector(&primitive->to_local, ray->d)};
+    local->o = transform_point(&primitive->to_local, ray->o);
+    local->d = transform_vector(&primitive->to_local, ray->d);
     Crossing all[CROSSINGS_MAX];
     int found = shape_crossings(primitive->shape, local, all);
     real rounding = tolerance(primitive, ray);
@@ -32,7 +33,8 @@ static int crossings_ahead(const Primitive *primitive, const Ray *ray, Line *loc
         const Crossing *c = &all[i];
         if (!(c->t > 0))
             continue;
-        if (ray->from == primitive && ray->patch == c->patch && shape_patch_is_flat(primitive->shape, c->patch))
+        bool same_patch = ray->from == primitive && ray->patch == c->patch;
+        if (same_patch && shape_patch_is_flat(primitive->shape, c->patch))
             continue;
         /* A start on this surface, or on one that coincides with it: t is 0 but for rounding. What counts is
          * the distance along the normal, since t itself is vague for a grazing ray. */

@@ -4,8 +4,8 @@
 
 #include "shape.h"
 
-/* d is a unit vector. Where the ray starts on a surface, `from` is its primitive and `patch` its patch, so that
- * the surface is not met again at its own point. */
+/* d is a unit vector. Where the ray starts on a surface, `from` is its primitive and `patch` its patch, so
+ * that the surface is not met again at its own point. */
 typedef struct Ray {
     Vec o, d;
     const Primitive *from;

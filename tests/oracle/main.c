@@ -89,7 +89,8 @@ static bool differs(const Scene *scene, Vec a, Vec b, int bits, int threshold)
     return false;
 }
 
-static bool is_unstable(const Scene *scene, const Camera *camera, const Options *options, int x, int y, Vec value)
+static bool is_unstable(const Scene *scene, const Camera *camera, const Options *options, int x, int y,
+                        Vec value)
 {
     for (int i = 0; i < 8; i++) {
         real dx = options->dx + 0.02L * cosl((real)i * PI / 4);

@@ -122,7 +122,8 @@ static void test_flat(void **state)
     s = shape_surface(&shape, vec(1, -1, 1), 0);
     assert_near(s.u, 0.75L, 0);
     assert_near(s.v, 0.25L, 0);
-    shape = shape_of("triangle { vertices 0 0 0  2 0 0  0 4 0  normals 0 0 1  3 0 3  0 0 1  uvs 0 0  1 0  0 1 }");
+    shape = shape_of("triangle { vertices 0 0 0  2 0 0  0 4 0  normals 0 0 1  3 0 3  0 0 1 "
+                     "uvs 0 0  1 0  0 1 }");
     s = shape_surface(&shape, vec(1, 1, 0), 0);
     assert_near(s.u, 0.5L, 1e-18L);
     assert_near(s.v, 0.25L, 1e-18L);
@@ -137,8 +138,8 @@ static void test_tetrahedron(void **state)
 {
     (void)state;
     Shape shape = shape_of("tetrahedron { center 1 1 1 size 3 }");
-    real volume = dot(cross(sub(shape.vertices[1], shape.vertices[0]), sub(shape.vertices[2], shape.vertices[0])),
-                      sub(shape.vertices[3], shape.vertices[0])) / 6;
+    const Vec *v = shape.vertices;
+    real volume = dot(cross(sub(v[1], v[0]), sub(v[2], v[0])), sub(v[3], v[0])) / 6;
     assert_near(fabsl(volume), 27 / (6 * sqrtl(2)), 1e-17L);
     for (int i = 0; i < 4; i++) {
         for (int k = 0; k < i; k++)
@@ -171,7 +172,8 @@ static void test_cylinder(void **state)
     assert_near(c.t, 5, 0);
     assert_near(shape_surface(&shape, vec(0.5L, 4, 0), c.patch).u, 0.75L, 1e-18L);
     c = crossing_of(&shape, vec(0.5L, 9, 0), vec(0, -1, 0), 2, 1);
-    assert_near(shape_surface(&shape, vec(0, 0, 0.5L), c.patch).v, 0.25L, 1e-18L); /* n = -y: t2 = -z, t1 = -x */
+    /* n = -y: t1 = -x, t2 = -z. */
+    assert_near(shape_surface(&shape, vec(0, 0, 0.5L), c.patch).v, 0.25L, 1e-18L);
     shape = shape_of("cylinder { base 0 0 0 top 0 4 0 radius 1 caps off }");
     crossing_of(&shape, vec(0.5L, 9, 0), vec(0, -1, 0), 0, 0);
 }
@@ -223,9 +225,15 @@ static void test_torus(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sphere_far), cmocka_unit_test(test_sphere_giant), cmocka_unit_test(test_sphere_surface),
-        cmocka_unit_test(test_box),        cmocka_unit_test(test_flat),         cmocka_unit_test(test_tetrahedron),
-        cmocka_unit_test(test_cylinder),   cmocka_unit_test(test_cone),         cmocka_unit_test(test_torus),
+        cmocka_unit_test(test_sphere_far),
+        cmocka_unit_test(test_sphere_giant),
+        cmocka_unit_test(test_sphere_surface),
+        cmocka_unit_test(test_box),
+        cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_tetrahedron),
+        cmocka_unit_test(test_cylinder),
+        cmocka_unit_test(test_cone),
+        cmocka_unit_test(test_torus),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,9 +133,9 @@ static const struct {
     const char *name;
     void (*parse)(Parser *parser);
 } STATEMENTS[] = {
-    {"image", parse_image},     {"camera", parse_camera},     {"render", parse_render}, {"output", parse_output},
-    {"texture", parse_texture}, {"material", parse_material}, {"light", parse_light},   {"object", parse_object},
-    {"include", parse_include},
+    {"image", parse_image},     {"camera", parse_camera},   {"render", parse_render},
+    {"output", parse_output},   {"texture", parse_texture}, {"material", parse_material},
+    {"light", parse_light},     {"object", parse_object},   {"include", parse_include},
 };
 
 static bool parse_statement(Parser *parser)

@@ -125,9 +125,9 @@ static const struct {
     const char *name;
     ShapeKind kind;
 } SHAPES[] = {
-    {"sphere", SHAPE_SPHERE},     {"plane", SHAPE_PLANE}, {"box", SHAPE_BOX},   {"tetrahedron", SHAPE_TETRAHEDRON},
-    {"triangle", SHAPE_TRIANGLE}, {"disk", SHAPE_DISK},   {"cone", SHAPE_CONE}, {"cylinder", SHAPE_CONE},
-    {"torus", SHAPE_TORUS},
+    {"sphere", SHAPE_SPHERE},           {"plane", SHAPE_PLANE},       {"box", SHAPE_BOX},
+    {"tetrahedron", SHAPE_TETRAHEDRON}, {"triangle", SHAPE_TRIANGLE}, {"disk", SHAPE_DISK},
+    {"cone", SHAPE_CONE},               {"cylinder", SHAPE_CONE},     {"torus", SHAPE_TORUS},
 };
 
 static bool parse_start(Parser *parser, Item *item, ShapeText *text)

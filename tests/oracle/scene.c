@@ -85,7 +85,8 @@ static void place_shape(Scene *scene, const Item *item, const Transform *to_worl
     /* A little larger, so that rounding in the bound itself never rejects a hit. */
     primitive.bound_radius = radius * grow * 1.000001L;
     Vec moved = vec(to_world->m[0][3], to_world->m[1][3], to_world->m[2][3]);
-    primitive.magnitude = length(primitive.bound_center) + primitive.bound_radius + length(moved) + grow * length(center);
+    primitive.magnitude = length(primitive.bound_center) + primitive.bound_radius;
+    primitive.magnitude += length(moved) + grow * length(center);
     primitive.unit = 1e-16L * grow * transform_norm(&primitive.to_local);
     size_t count = scene->primitive_count;
     scene->primitives = store_grow(&scene->store, scene->primitives, count, sizeof *scene->primitives);

@@ -1,5 +1,5 @@
-/* What a scene file says (sections 1 and 2 of the contract), as plain structs with every default filled in, and
- * the list of placed primitives that rays are tested against. Knows nothing of rays. */
+/* What a scene file says (sections 1 and 2 of the contract), as plain structs with every default filled in,
+ * and the list of placed primitives that rays are tested against. Knows nothing of rays. */
 #ifndef ORACLE_SCENE_H
 #define ORACLE_SCENE_H
 
@@ -93,7 +93,7 @@ typedef struct Primitive {
     bool bounded;
     Vec bound_center; /* world */
     real bound_radius;
-    /* Distances from its surface below unit * (magnitude + largest coordinate of the ray) are rounding errors. */
+    /* A distance from its surface below unit * (magnitude + largest coordinate of the ray) is rounding. */
     real magnitude;
     real unit;
 } Primitive;

@@ -1,4 +1,4 @@
-/* The shapes of the contract in their own space: set-up, crossings with a line, and the surface at a crossing.
+/* The shapes of the contract in their own space: set-up, crossings with a line, the surface at a crossing.
  * Knows nothing of the world, of materials or of light. */
 #ifndef ORACLE_SHAPE_H
 #define ORACLE_SHAPE_H
@@ -10,7 +10,8 @@ typedef struct Line {
     Vec o, d;
 } Line;
 
-/* Patches: box 0..5 (-x +x -y +y -z +z), tetrahedron 0..3 (abc abd acd bcd), cone 0 side 1 base 2 top, else 0. */
+/* Patches: box 0..5 (-x +x -y +y -z +z), tetrahedron 0..3 (abc abd acd bcd), cone 0 side 1 base 2 top,
+ * else 0. */
 typedef struct Crossing {
     real t;
     int patch;

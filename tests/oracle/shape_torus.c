@@ -1,14 +1,15 @@
-/* The torus. Where the quartic of a line turns is found from its derivatives; between two turns the sign of the
- * distance from the tube, evaluated directly, is followed. No coefficient ever decides where a root is. */
+/* The torus. Where the quartic of a line turns is found from its derivatives; between two turns the sign of
+ * the distance from the tube, evaluated directly, is followed. No coefficient decides where a root is. */
 #include "shape.h"
 
-/* The line in the frame of the torus, z along its axis, in units of its outer radius, from its closest point. */
+/* The line in the frame of the torus, z along its axis, in units of its outer radius, from its point
+ * closest to the centre. */
 typedef struct Tube {
     Vec o, d;
     real major, minor;
 } Tube;
 
-/* A function of t to find a root of: a polynomial, or where `tube` is not NULL, the distance from the tube. */
+/* A function of t to find a root of: a polynomial, or where `tube` is not NULL, the tube's distance. */
 typedef struct Function {
     const Tube *tube;
     const real *coefficients;
@@ -40,8 +41,8 @@ static real value_at(const Function *f, real t, real *slope)
     return value;
 }
 
-/* The root between low and high, where the function has one and changes its sign: Newton's steps, and a halving
- * wherever one leaves the bracket or the bracket shrinks slowly. */
+/* The root between low and high, where the function has one and changes its sign: Newton's steps, and a
+ * halving wherever one leaves the bracket or the bracket shrinks slowly. */
 static real root_between(const Function *f, real low, real high)
 {
     real slope;
@@ -131,8 +132,10 @@ int torus_crossings(const Shape *shape, const Line *line, Crossing *out)
     int count = 0;
     real low = -1.01L;
     for (int i = 0; i < turn_count; i++) {
-        if (sign_changes(&distance, low, turns[i]))
-            out[count++] = (Crossing){(root_between(&distance, low, turns[i]) * size + shift) / speed, 0, false};
+        if (sign_changes(&distance, low, turns[i])) {
+            real t = root_between(&distance, low, turns[i]) * size + shift;
+            out[count++] = (Crossing){t / speed, 0, false};
+        }
         low = turns[i];
     }
     return count;

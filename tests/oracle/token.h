@@ -4,7 +4,14 @@
 
 #include "store.h"
 
-typedef enum TokenKind { TOKEN_END, TOKEN_NUMBER, TOKEN_NAME, TOKEN_STRING, TOKEN_OPEN, TOKEN_CLOSE } TokenKind;
+typedef enum TokenKind {
+    TOKEN_END,
+    TOKEN_NUMBER,
+    TOKEN_NAME,
+    TOKEN_STRING,
+    TOKEN_OPEN,
+    TOKEN_CLOSE
+} TokenKind;
 
 typedef struct Token {
     TokenKind kind;

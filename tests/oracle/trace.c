@@ -69,9 +69,9 @@ static Vec direct_light(const Spot *spot, Vec diffuse)
         real cosine = dot(spot->normal, light.direction);
         if (!(cosine > 0) || !(dot(spot->geometric, light.direction) > 0))
             continue;
-        real s = specular_term(spot->material->blinn, spot->material->shininess, spot->normal, light.direction,
-                               to_eye);
-        Vec share = times(light.intensity, add(scaled(diffuse, cosine), scaled(spot->material->specular, s)));
+        const Material *material = spot->material;
+        real s = specular_term(material->blinn, material->shininess, spot->normal, light.direction, to_eye);
+        Vec share = times(light.intensity, add(scaled(diffuse, cosine), scaled(material->specular, s)));
         if (spot->scene->shadows && largest(share) > 0) {
             Ray ray = {spot->hit->point, light.direction, spot->hit->primitive, spot->hit->patch};
             share = times(share, hit_transmittance(spot->scene, &ray, light.distance));
