@@ -45,7 +45,7 @@ static bool choose_device(Picture *picture, Error *error)
     if (!picture->devices)
         return false;
     const char *spec = picture->options->device, *environment = getenv("CLRT_DEVICE");
-    if (spec || !environment)
+    if (spec || !environment || !environment[0])
         return device_choose(picture->devices, spec, &picture->device_index, error);
     Error reason;
     return device_choose(picture->devices, environment, &picture->device_index, &reason) ||

@@ -33,6 +33,7 @@ CLRT_DEVICE='no such name' expect 3 "CLRT_DEVICE: there is no device" "$clrt" sc
 [ ! -e out.png ] || fail "a picture from a device that is not there"
 CLRT_DEVICE='no such name' expect 0 '' "$clrt" --device 0 scene.txt out.png
 CLRT_DEVICE=0 expect 0 '' "$clrt" scene.txt out.png
+CLRT_DEVICE= expect 0 '' "$clrt" scene.txt out.png
 if ! "$clrt" --list-devices | grep -qE '^[0-9]+  [0-9:]+  GPU'; then
     expect 3 "there is no device 'gpu'" "$clrt" --device gpu scene.txt out.png
 fi

@@ -17,7 +17,8 @@ static void test_utf8(void **state)
 {
     (void)state;
     static const char *const good[] = {"", "abc", "\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x98\x80",
-                                       "\xED\x9F\xBF", "\xF4\x8F\xBF\xBF", "\x7F", "12345678\xC3\xA4" "12345678"};
+                                       "\xED\x9F\xBF", "\xF4\x8F\xBF\xBF", "\x7F",
+                                       "12345678\xC3\xA4" "12345678"};
     static const u32 characters[] = {0, 3, 1, 1, 1, 1, 1, 1, 17};
     for (u32 i = 0; i < sizeof good / sizeof *good; ++i) {
         assert_int_equal(text_find_invalid_utf8(good[i], strlen(good[i])), strlen(good[i]));

@@ -29,7 +29,10 @@ static inline char *printed(const Diagnostics *diagnostics)
     assert_non_null(stream);
     diagnostics_print(diagnostics, stream);
     fclose(stream);
-    return text;
+    char *copy = strdup(text);
+    assert_non_null(copy);
+    free(text);
+    return copy;
 }
 
 static inline Parsed parsed_begin(void)

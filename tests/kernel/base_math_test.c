@@ -151,7 +151,7 @@ static uint64_t case_inputs(void)
 
 static void errors_are_within_bounds(void **state)
 {
-    KernelProgram *program = functions_create(*state, 8);
+    KernelProgram *program = functions_create(*state, 8, NULL);
     Batch *batch = batch_create();
     const uint64_t total = case_inputs();
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
@@ -178,7 +178,7 @@ static void errors_are_within_bounds(void **state)
 // The floats next to multiples of pi/2, where most of the argument cancels.
 static void multiples_of_half_pi_are_reduced(void **state)
 {
-    KernelProgram *program = functions_create(*state, 8);
+    KernelProgram *program = functions_create(*state, 8, NULL);
     Batch *batch = batch_create();
     for (uint32_t i = 0; i < BATCH; i++) {
         const float near = (float)((double)(i / 8) * 1.57079632679489661923);

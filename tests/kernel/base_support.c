@@ -38,9 +38,9 @@ Batch *batch_create(void)
     return batch;
 }
 
-KernelProgram *functions_create(KernelDevice *device, int lanes)
+KernelProgram *functions_create(KernelDevice *device, int lanes, const char *options)
 {
-    return kernel_program_create(device, source, lanes);
+    return kernel_program_create_with(device, source, lanes, options);
 }
 
 double functions_apply(KernelProgram *program, Function function, int lanes, Batch *batch)

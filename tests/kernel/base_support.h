@@ -43,7 +43,8 @@ typedef struct {
 // Zeros; freed with free.
 Batch *batch_create(void);
 
-KernelProgram *functions_create(KernelDevice *device, int lanes);
+// Options of the compiler may be NULL.
+KernelProgram *functions_create(KernelDevice *device, int lanes, const char *options);
 
 // Fills the results; gives the seconds it took.
 double functions_apply(KernelProgram *program, Function function, int lanes, Batch *batch);

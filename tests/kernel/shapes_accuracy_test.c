@@ -390,7 +390,7 @@ static void judge(const Placed *placed, const RayTable *table, Verdicts *v)
         const double incidence = fabs((double)(hit_number(table, i, HIT_NG) * ray_number(table, i, RAY_DIR) +
                                                hit_number(table, i, HIT_NG + 1) * ray_number(table, i, RAY_DIR + 1) +
                                                hit_number(table, i, HIT_NG + 2) * ray_number(table, i, RAY_DIR + 2)));
-        if (o.x == 0 && o.y == 0 && o.z == 0 && incidence > 0.3 * (double)real3_length(d))
+        if (o.x == 0 && o.y == 0 && o.z == 0 && !at_open_rim(&c, t, ALLOWED_ULPS * U * c.scale, false) && incidence > 0.3 * (double)real3_length(d))
             v->worst_t_ulps = fmax(v->worst_t_ulps, ulps_between((double)exact, (float)t));
     }
 }
@@ -445,8 +445,7 @@ static void all_shapes(void **state)
 {
     print_message("shape             hits  input t ulps   normal      uv  d/bound bound  wrong\n");
     for (size_t i = 0; i < sizeof families / sizeof *families; ++i)
-        if (!getenv("ONLY") || strstr(families[i].name, getenv("ONLY")))
-            shape_family(*state, &families[i], 17 + i);
+        shape_family(*state, &families[i], 17 + i);
 }
 
 int main(void)
