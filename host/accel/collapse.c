@@ -20,7 +20,8 @@ static int gather_children(const BinaryNode *binary, u32 root, u32 children[BVH_
         f32 largest_area = -1;
         for (int i = 0; i < count; i++) {
             const f32 area = box_half_area(&binary[children[i]].box);
-            if (binary[children[i]].count == 0 && area > largest_area) {
+            // Also where the area is no number (infinite times 0): the root at least must be opened.
+            if (binary[children[i]].count == 0 && !(area <= largest_area)) {
                 largest = i;
                 largest_area = area;
             }

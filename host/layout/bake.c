@@ -109,7 +109,7 @@ static Vec3 farthest(const BakedBounds *bounds)
 
 void bake_split_whole(f64 x, f32 *whole, f32 *rest)
 {
-    *whole = (f32)floor(x);
+    *whole = (f32)round(x);
     *rest = (f32)(x - *whole);
 }
 

@@ -23,7 +23,8 @@ bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, Bake
 // The way back from that space. Numbers out of the range of float: ERROR_SCENE, as above.
 bool bake_object_frame(const Affine *to_space, ObjectFrame *out, Error *error);
 
-// x as the sum of a whole number and a rest below 1 (up to 2^24; the whole number's half ulp beyond).
+// x as the sum of the nearest whole number and a rest, so that small numbers stay as precise as they are. The
+// rest is at most 1/2 up to 2^24, half an ulp of the whole number beyond.
 void bake_split_whole(f64 x, f32 *whole, f32 *rest);
 
 #endif

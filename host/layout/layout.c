@@ -1,5 +1,7 @@
 #include "layout/layout.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -78,6 +80,21 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
     if (scene->image.samples > 1)
         set |= feature_bit(FEATURE_SAMPLES);
     return set;
+}
+
+// Bits of the planes (of the first 32) that the light lies on, within the rounding of both to float.
+static u32 planes_of_light(const Layout *layout, const LightRecord *light)
+{
+    u32 planes = 0;
+    for (u32 i = 0; i < layout->plane_count && i < 32 && light->kind != LIGHT_KIND_DIRECTIONAL; i++) {
+        const Primitive *plane = &layout->primitives[i];
+        const f64 x = (f64)plane->row2.x * light->position.x, y = (f64)plane->row2.y * light->position.y;
+        const f64 z = (f64)plane->row2.z * light->position.z;
+        const f64 size = fabs(x) + fabs(y) + fabs(z) + fabs((f64)plane->p0);
+        if (fabs(x + y + z - plane->p0) <= 2 * FLT_EPSILON * size)
+            planes |= 1u << i;
+    }
+    return planes;
 }
 
 static bool add_records(Layout *layout, const Scene *scene, Error *error)
@@ -166,6 +183,8 @@ static bool add_primitives(Layout *layout, const Scene *scene, Placer *placer, E
     copy_list(layout, &placer->top, &next);
     for (u32 i = 0; i < scene->object_count; i++)
         copy_list(layout, &placer->objects[i].list, &next);
+    for (u32 i = 0; i < layout->light_count; i++)
+        layout->lights[i].planes = planes_of_light(layout, &layout->lights[i]);
     layout->params.plane_count = layout->plane_count;
     layout->params.root = layout->root;
     return true;

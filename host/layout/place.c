@@ -7,8 +7,6 @@
 
 #include "layout/bake.h"
 
-enum { NESTING_MAX = 1000 };
-
 // Where a group is placed: space of the group -> render space, the material that its shapes inherit (-1:
 // none), its first place in the order of definition.
 typedef struct Placement {
@@ -186,37 +184,76 @@ static bool add_instance(Placer *placer, u32 index, const Placement *placement, 
                               error);
 }
 
-// Places the shapes and instances of a group. own_list: bounded shapes belong to the object's own list.
-static bool place_group(Placer *placer, const Group *group, Placement at, bool own_list, u32 depth,
-                        Error *error)
+// A group that is being placed. Objects may nest as deep as a file likes, so the stack of them is our own.
+typedef struct Frame {
+    const Group *group;
+    u32 next;      // item
+    Placement at;
+    bool own_list; // bounded shapes belong to the object's own list
+} Frame;
+
+typedef struct FrameStack {
+    Frame *frames;
+    u32 count, capacity;
+} FrameStack;
+
+static bool push_frame(FrameStack *stack, const Group *group, Placement at, bool own_list, Error *error)
+{
+    if (stack->count == stack->capacity) {
+        const u32 capacity = stack->capacity ? 2 * stack->capacity : 16;
+        Frame *frames = realloc(stack->frames, capacity * sizeof *frames);
+        if (!frames)
+            return error_set(error, ERROR_MEMORY, "no memory for objects nested %u deep", stack->count);
+        stack->frames = frames;
+        stack->capacity = capacity;
+    }
+    stack->frames[stack->count++] = (Frame){ group, 0, at, own_list };
+    return true;
+}
+
+static bool place_shape(Placer *placer, const Shape *shape, Frame *frame, Error *error)
+{
+    const bool plane = shape->kind == SHAPE_PLANE;
+    const i32 inherited = frame->at.material < 0 ? 0 : frame->at.material;
+    const u64 order = frame->at.order++;
+    return (frame->own_list && !plane) ||
+           add_shape(placer, plane ? &placer->planes : &placer->top, shape, frame->at.to_render,
+                     shape->material < 0 ? inherited : shape->material, order, error);
+}
+
+// Places an instance and puts the group of its object on the stack.
+static bool place_instance(Placer *placer, const Instance *instance, FrameStack *stack, Error *error)
+{
+    Frame *frame = &stack->frames[stack->count - 1];
+    const ObjectLayout *object = &placer->objects[instance->object];
+    const Placement inner = { affine_compose(frame->at.to_render, instance->transform),
+                              instance->material < 0 ? frame->at.material : instance->material,
+                              frame->at.order };
+    const bool listed = object->bounded > 1;
+    frame->at.order += object->order_size;
+    return (!listed || add_instance(placer, instance->object, &inner, error)) &&
+           push_frame(stack, &placer->scene->objects[instance->object].group, inner, listed, error);
+}
+
+static bool place_world(Placer *placer, Placement world, Error *error)
 {
     const Scene *scene = placer->scene;
-    if (depth > NESTING_MAX)
-        return error_set(error, ERROR_SCENE, "objects are nested more than %d deep", NESTING_MAX);
-    for (u32 i = 0; i < group->count; i++) {
-        const Item item = group->items[i];
-        if (item.kind == ITEM_SHAPE) {
-            const Shape *shape = &scene->shapes[item.index];
-            const bool plane = shape->kind == SHAPE_PLANE;
-            const i32 inherited = at.material < 0 ? 0 : at.material;
-            if ((plane || !own_list) &&
-                !add_shape(placer, plane ? &placer->planes : &placer->top, shape, at.to_render,
-                           shape->material < 0 ? inherited : shape->material, at.order, error))
-                return false;
-            at.order++;
-        } else if (item.kind == ITEM_INSTANCE) {
-            const Instance *instance = &scene->instances[item.index];
-            ObjectLayout *object = &placer->objects[instance->object];
-            const Placement inner = { affine_compose(at.to_render, instance->transform),
-                                      instance->material < 0 ? at.material : instance->material, at.order };
-            const bool listed = object->bounded > 1;
-            if ((listed && !add_instance(placer, instance->object, &inner, error)) ||
-                !place_group(placer, &scene->objects[instance->object].group, inner, listed, depth + 1, error))
-                return false;
-            at.order += object->order_size;
+    FrameStack stack = { NULL, 0, 0 };
+    bool ok = push_frame(&stack, &scene->world, world, false, error);
+    while (ok && stack.count > 0) {
+        Frame *frame = &stack.frames[stack.count - 1];
+        if (frame->next == frame->group->count) {
+            stack.count--;
+            continue;
         }
+        const Item item = frame->group->items[frame->next++];
+        if (item.kind == ITEM_SHAPE)
+            ok = place_shape(placer, &scene->shapes[item.index], frame, error);
+        else if (item.kind == ITEM_INSTANCE)
+            ok = place_instance(placer, &scene->instances[item.index], &stack, error);
     }
-    return true;
+    free(stack.frames);
+    return ok;
 }
 
 // Sizes of the objects (each holds only objects defined before it), and what their textures need.
@@ -257,7 +294,7 @@ bool placer_run(Placer *placer, const Scene *scene, Error *error)
     measure(placer);
     placer->planes.with_frames = placer->top.with_frames = placer->solid;
     const Placement world = { affine_translate(vec_scale(scene->camera.position, -1)), -1, 0 };
-    return place_group(placer, &scene->world, world, false, 0, error);
+    return place_world(placer, world, error);
 }
 
 void placer_destroy(Placer *placer)

@@ -29,8 +29,8 @@ typedef struct Placer {
 } Placer;
 
 // Places the scene's world. Index of the object stands in p0 (bits, i32) of INSTANCE primitives until the
-// roots are known. Fails with ERROR_MEMORY, and with ERROR_SCENE where objects nest too deeply; the placer is
-// to be destroyed either way.
+// roots are known. Fails with ERROR_MEMORY, and with ERROR_SCENE where a number leaves the range of float; the
+// placer is to be destroyed either way.
 bool placer_run(Placer *placer, const Scene *scene, Error *error);
 void placer_destroy(Placer *placer);
 

@@ -172,13 +172,15 @@ OUTLINE uint test_primitive(const Hierarchy *scene, const BatchRays *rays, Batch
 
 // Closest hits of the rays in mask (any_hit false), or any hit (true: then only the fact counts and tfar,
 // primitive and instance of a ray that hit are those of some hit). opaque_only leaves out primitives that
-// may let light through. tfar, tmin and self are set by the caller, primitive to NO_HIT.
-OUTLINE void traverse(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
-                            const bool any_hit, const bool opaque_only)
+// may let light through; bit k of planes_out leaves out plane k. tfar, tmin and self are set by the caller,
+// primitive to NO_HIT.
+OUTLINE void traverse(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask, bool any_hit,
+                      bool opaque_only, uint planes_out)
 {
 #if HAS_PLANE
     for (uint i = 0; i < scene->plane_count && mask; i++) {
-        if (opaque_only && !(scene->primitives[i].kind & PRIMITIVE_OPAQUE))
+        if ((i < 32 && (planes_out >> i & 1u)) ||
+            (opaque_only && !(scene->primitives[i].kind & PRIMITIVE_OPAQUE)))
             continue;
         const uint found = test_primitive(scene, rays, hits, mask, (int)i, NO_HIT);
         if (any_hit)

@@ -16,7 +16,8 @@ typedef struct LightRecord {
     u32 kind;          // LIGHT_KIND_X
     f32 versine_outer; // spot: 1 - cosine of half the outer angle
     f32 inverse_range; // spot: 1 / (cos(inner / 2) - cos(outer / 2)); 0: hard edge
-    u32 padding[2];
+    u32 planes; // bit k: the light lies on plane k, which so is never between it and anything
+    u32 padding;
 } LightRecord;
 LAYOUT_SIZE(LightRecord, 80);
 LAYOUT_OFFSET(LightRecord, attenuation, 48);

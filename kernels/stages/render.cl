@@ -136,7 +136,8 @@ static inline void render_tile(const State *s, const Hierarchy *scene, const Sha
             shade_hits(s, scene, shading, lights, params, &pass, count, rays);
 #if HAS_SHADOWS
             GROUP_BARRIER();
-            intersect_shadow(s, scene, shading->materials, pass.last - pass.first, count, &rays[RAYS_SHADOW]);
+            intersect_shadow(s, scene, shading->materials, lights + pass.first, pass.last - pass.first, count,
+                             &rays[RAYS_SHADOW]);
             GROUP_BARRIER();
 #endif
             pass.first = pass.last;

@@ -11,6 +11,10 @@
 // Bits of FLAGS: a shadow ray towards light k of the pass is bit k; a next ray is this one.
 #define FLAG_NEXT (1 << 30)
 
+// Shadow rays end this little before the light, several times the error of any t, so that the surface that a
+// light lies on does not stand before it.
+#define LIGHT_NEARER 0.999998f
+
 // Numbers of a MaterialRecord.
 enum {
     MATERIAL_DIFFUSE = 0, MATERIAL_SHININESS = 3, MATERIAL_SPECULAR = 4, MATERIAL_IOR = 7,
@@ -92,7 +96,7 @@ OUTLINE vi shade_lights(const State *s, const Slots *slots, const Hit *hit, cons
         const uint fields = SHADOW_LIGHTS + (l - pass->first) * SHADOW_FIELDS;
         flags = flags | (arrives ? (vi)(1 << (l - pass->first)) : (vi)(0));
         state_store3(s, fields + SHADOW_DIR, slots, light.dir, slots->valid);
-        state_store(s, fields + SHADOW_T, slots, light.distance, slots->valid);
+        state_store(s, fields + SHADOW_T, slots, light.distance * LIGHT_NEARER, slots->valid);
         state_store3(s, fields + SHADOW_GAIN, slots, gain, slots->valid);
 #else
         *radiance = v3_select(arrives, v3_add(*radiance, gain), *radiance);

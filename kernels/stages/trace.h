@@ -3,6 +3,7 @@
 #define CLRT_KERNELS_STAGES_TRACE_H
 
 #include "accel/batch.h"
+#include "shared/light.h"
 #include "stages/queue.h"
 
 // Origins of LANES rays at places first.. of a batch; self and instance: the surface that they start on.
@@ -51,7 +52,7 @@ OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint coun
                         self_instance);
             batch_aim(&rays, &hits, k, state_load3(s, RAY_DIR, &slots), (vf)(INFINITY));
         }
-        traverse(scene, &rays, &hits, batch_mask(count - begin), false, false);
+        traverse(scene, &rays, &hits, batch_mask(count - begin), false, false, 0);
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);
             state_store(s, RAY_T, &slots, VF_LOAD(&hits.tfar[k]), slots.valid);
@@ -70,10 +71,10 @@ OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint coun
 // ends when it meets a surface that lets nothing through or leaves nothing.
 static inline void transmit_shadows(const Hierarchy *scene, global const MaterialRecord *materials,
                                     const BatchRays *rays, BatchHits *hits, const real *tfar, uint mask,
-                                    real *gain)
+                                    uint planes_out, real *gain)
 {
     while (mask) {
-        traverse(scene, rays, hits, mask, false, false);
+        traverse(scene, rays, hits, mask, false, false, planes_out);
         for (uint rest = mask; rest; rest &= rest - 1) {
             const int k = lowest_bit(rest);
             const int primitive = hits->primitive[k];
@@ -110,7 +111,7 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
 // what arrives to the radiance of the batch.
 static inline void shadow_batch(const State *s, const Hierarchy *scene,
                                 global const MaterialRecord *materials, uint light, uint begin, uint count,
-                                uint mask, BatchRays *rays, BatchHits *hits, real *radiance)
+                                uint mask, uint planes_out, BatchRays *rays, BatchHits *hits, real *radiance)
 {
     global const int *queue = s->ints + QUEUE * TILE_PIXELS;
     const uint fields = SHADOW_LIGHTS + light * SHADOW_FIELDS;
@@ -129,13 +130,13 @@ static inline void shadow_batch(const State *s, const Hierarchy *scene,
     for (int k = 0; k < BATCH; k++)
         tfar[k] = hits->tfar[k];
 #endif
-    traverse(scene, rays, hits, mask, true, HAS_TRANSMITTANCE);
+    traverse(scene, rays, hits, mask, true, HAS_TRANSMITTANCE, planes_out);
     uint open = 0;
     for (int k = 0; k < BATCH; k += LANES)
         open |= vm_bits(VI_LOAD(&hits->primitive[k]) == (vi)(NO_HIT)) << k;
     open &= mask;
 #if HAS_TRANSMITTANCE
-    transmit_shadows(scene, materials, rays, hits, tfar, open, gain);
+    transmit_shadows(scene, materials, rays, hits, tfar, open, planes_out, gain);
 #endif
     for (int k = 0; k < BATCH; k += LANES) {
         const vm lit = vm_from_bits(open >> k);
@@ -149,7 +150,7 @@ static inline void shadow_batch(const State *s, const Hierarchy *scene,
 // Traces the shadow rays towards the lights of a pass, in the order of the lights, so that each slot adds its
 // own light in that order.
 OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global const MaterialRecord *materials,
-                              uint lights, uint count, uint *traced)
+                              global const LightRecord *lights, uint light_count, uint count, uint *traced)
 {
     global const int *queue = s->ints + QUEUE * TILE_PIXELS;
     for (uint begin = GROUP_ITEM * BATCH; begin < count; begin += GROUP * BATCH) {
@@ -171,13 +172,14 @@ OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global con
             VF_STORE(sum.z, &radiance[2 * BATCH + k]);
             VI_STORE(slots.valid ? state_load_int(s, FLAGS, &slots) : (vi)(0), &flags[k]);
         }
-        for (uint light = 0; light < lights; light++) {
+        for (uint light = 0; light < light_count; light++) {
             uint mask = 0;
             for (int k = 0; k < BATCH; k += LANES)
                 mask |= vm_bits((VI_LOAD(&flags[k]) & (vi)(1 << light)) != (vi)(0)) << k;
             *traced += popcount(mask);
             if (mask)
-                shadow_batch(s, scene, materials, light, begin, count, mask, &rays, &hits, radiance);
+                shadow_batch(s, scene, materials, light, begin, count, mask, lights[light].planes, &rays, &hits,
+                             radiance);
         }
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHAPES = 96, RAYS = 131072, ALLOWED_ULPS = 16 };
+enum { SHAPES = 96, RAYS = 102400, ALLOWED_ULPS = 16 };
 
 static const double U = 0x1p-24;
 
@@ -219,6 +219,7 @@ typedef struct Verdicts {
 typedef struct Case {
     const Placed *placed;
     Real3 o, d;   // object space
+    real exact;
     double scale; // object units: size of the numbers that went in
 } Case;
 
@@ -298,13 +299,14 @@ static void judge_t(const Case *c, const RayTable *table, size_t i, Verdicts *v)
 {
     const double t = hit_number(table, i, HIT_T);
     double ulps = 0.5;
-    while (ulps <= 64 && !acceptable(c, t, ulps))
+    const real off = fabsl(t - c->exact);
+    const bool close = off * real3_length(c->d) <= ulps * U * c->scale;
+    while (!close && ulps <= 64 && !acceptable(c, t, ulps))
         ulps *= 2;
-    // A disk or triangle may be missed by its plane's start being behind by a rounding.
     if (ulps > ALLOWED_ULPS) {
         if (v->wrong++ < 8)
             print_message("ray %zu (%a %a %a) (%a %a %a): t %.9g, exact %.9Lg, %g input ulps; scale %g\n", i, (double)ray_number(table,i,0),(double)ray_number(table,i,1),(double)ray_number(table,i,2),(double)ray_number(table,i,3),(double)ray_number(table,i,4),(double)ray_number(table,i,5), t,
-                          reference_hit(&c->placed->shape, c->o, c->d, 0, 0, 0), ulps, c->scale);
+                          c->exact, ulps, c->scale);
     }
     v->worst_ulps = fmax(v->worst_ulps, ulps);
 }
@@ -378,7 +380,7 @@ static void judge(const Placed *placed, const RayTable *table, Verdicts *v)
                               ray_number(table, i, RAY_DIR + 2));
         c.o = real_map_point(&p->inverse, o);
         c.d = real_map_direction(&p->inverse, d);
-        const real exact = reference_hit(&p->shape, c.o, c.d, 0, 0, 0);
+        const real exact = c.exact = reference_hit(&p->shape, c.o, c.d, 0, 0, 0);
         const double t = hit_number(table, i, HIT_T);
         const double along = isinf(t) ? (isinf(exact) ? 0 : (double)exact) : t;
         c.scale = magnitude(p, table, i, along);

@@ -47,6 +47,42 @@ static const char source[] =
     "#if HAS_TRIANGLE\n"
     "    VF_STORE(s.b1, hits + 14 * n + i); VF_STORE(s.b2, hits + 15 * n + i);\n"
     "#endif\n"
+    "}\n"
+    // Where rays in direction rays[3..5] that leave the surface points `hits` start.
+    "kernel void leave(global const float *hits, global const float *rays, global float *origins, uint n)\n"
+    "{\n"
+    "    const size_t i = get_global_id(0) * LANES;\n"
+    "    const v3 p = v3_make(VF_LOAD(hits + n + i), VF_LOAD(hits + 2 * n + i), VF_LOAD(hits + 3 * n + i));\n"
+    "    const v3 e = v3_make(VF_LOAD(hits + 4 * n + i), VF_LOAD(hits + 5 * n + i), VF_LOAD(hits + 6 * n + i));\n"
+    "    const v3 g = v3_make(VF_LOAD(hits + 7 * n + i), VF_LOAD(hits + 8 * n + i), VF_LOAD(hits + 9 * n + i));\n"
+    "    const v3 d = v3_make(VF_LOAD(rays + 3 * n + i), VF_LOAD(rays + 4 * n + i), VF_LOAD(rays + 5 * n + i));\n"
+    "    const v3 o = offset_origin(p, e, g, d);\n"
+    "    VF_STORE(o.x, origins + i); VF_STORE(o.y, origins + n + i); VF_STORE(o.z, origins + 2 * n + i);\n"
+    "}\n"
+    // How many of the primitives each ray meets.
+    "kernel void crossings(global const float *primitives, uint count, global const float *rays,\n"
+    "                      global float *met, uint n)\n"
+    "{\n"
+    "    const size_t i = get_global_id(0) * LANES;\n"
+    "    RayLanes ray;\n"
+    "    ray.org = v3_make(VF_LOAD(rays + i), VF_LOAD(rays + n + i), VF_LOAD(rays + 2 * n + i));\n"
+    "    ray.dir = v3_make(VF_LOAD(rays + 3 * n + i), VF_LOAD(rays + 4 * n + i), VF_LOAD(rays + 5 * n + i));\n"
+    "    ray.tmin = (vf)(0.0f);\n"
+    "    ray.self = ray.inward = (vm)(0);\n"
+    "    vf sum = (vf)(0.0f);\n"
+    "    for (uint k = 0; k < count; k++) {\n"
+    "        global const float *r = primitives + 16 * k;\n"
+    "        PrimitiveLanes p;\n"
+    "        p.row0 = v3_make((vf)(r[0]), (vf)(r[1]), (vf)(r[2]));\n"
+    "        p.row1 = v3_make((vf)(r[4]), (vf)(r[5]), (vf)(r[6]));\n"
+    "        p.row2 = v3_make((vf)(r[8]), (vf)(r[9]), (vf)(r[10]));\n"
+    "        p.c = v3_make((vf)(r[3]), (vf)(r[7]), (vf)(r[11]));\n"
+    "        p.p0 = (vf)(r[12]);\n"
+    "        p.p1 = (vf)(r[13]);\n"
+    "        const vf t = intersect_primitive(as_uint(r[14]), &p, &ray);\n"
+    "        sum += t < (vf)(INFINITY) ? (vf)(1.0f) : (vf)(0.0f);\n"
+    "    }\n"
+    "    VF_STORE(sum, met + i);\n"
     "}\n";
 
 static const struct {
@@ -88,6 +124,39 @@ void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primit
                    kernel_in(table->index, n * sizeof(int)),
                    kernel_in(table->rays, RAY_COLUMNS * n * sizeof(float)),
                    kernel_out(table->hits, HIT_COLUMNS * n * sizeof(float)),
+                   kernel_value(&n, sizeof n),
+               }, 5);
+}
+
+void shapes_leave(KernelProgram *program, int lanes, RayTable *table)
+{
+    const uint32_t n = (uint32_t)table->capacity;
+    const size_t bytes = 3 * n * sizeof(float);
+    float *origins = malloc(bytes);
+    assert_non_null(origins);
+    memset(origins, 0, bytes);
+    kernel_run(program, "leave", n / (size_t)lanes,
+               (KernelArg[]){
+                   kernel_in(table->hits, HIT_COLUMNS * n * sizeof(float)),
+                   kernel_in(table->rays, RAY_COLUMNS * n * sizeof(float)),
+                   kernel_out(origins, bytes),
+                   kernel_value(&n, sizeof n),
+               }, 4);
+    memcpy(table->rays, origins, bytes);
+    free(origins);
+}
+
+void shapes_crossings(KernelProgram *program, int lanes, const RayTable *table, const Primitive *primitives,
+                      size_t count, float *met)
+{
+    const uint32_t n = (uint32_t)table->capacity, primitive_count = (uint32_t)count;
+    memset(met, 0xff, n * sizeof *met);
+    kernel_run(program, "crossings", n / (size_t)lanes,
+               (KernelArg[]){
+                   kernel_in(primitives, count * sizeof *primitives),
+                   kernel_value(&primitive_count, sizeof primitive_count),
+                   kernel_in(table->rays, RAY_COLUMNS * n * sizeof(float)),
+                   kernel_out(met, n * sizeof *met),
                    kernel_value(&n, sizeof n),
                }, 5);
 }

@@ -33,6 +33,11 @@ float hit_number(const RayTable *table, size_t i, int column);
 KernelProgram *shapes_program(KernelDevice *device, int kind, int lanes);
 // Fills table->hits. All primitives are of one kind where the program has only one.
 void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primitive *primitives, size_t count);
+// Moves the origin of every ray to where a ray in its direction leaves the surface point in table->hits.
+void shapes_leave(KernelProgram *program, int lanes, RayTable *table);
+// How many of the primitives each ray of the table meets; met has table->capacity places.
+void shapes_crossings(KernelProgram *program, int lanes, const RayTable *table, const Primitive *primitives,
+                      size_t count, float *met);
 
 // Uniform in [0, 1), and in a range; *state is any number.
 double random_unit(uint64_t *state);

@@ -248,7 +248,7 @@ static int polynomial_roots(const real *c, int degree, real low, real high, real
         const bool rising = polynomial(c, degree, a) < 0;
         if ((polynomial(c, degree, b) < 0) == rising)
             continue;
-        for (int k = 0; k < 90; ++k) {
+        for (int k = 0; k < 68; ++k) {
             const real middle = (a + b) / 2;
             *((polynomial(c, degree, middle) < 0) == rising ? &a : &b) = middle;
         }
