@@ -44,6 +44,11 @@ static Vec3 spread_by(Affine m, Vec3 a)
                   vec_dot(vec_absolute(m.row[2]), a)};
 }
 
+static Vec3 transposed_direction(Affine m, Vec3 d)
+{
+    return vec_add(vec_scale(m.row[0], d.x), vec_add(vec_scale(m.row[1], d.y), vec_scale(m.row[2], d.z)));
+}
+
 // Length of a row's first two elements: half the extent of the image of the unit circle along an axis.
 static f64 circle_extent(Vec3 row)
 {
@@ -107,12 +112,6 @@ static Vec3 farthest(const BakedBounds *bounds)
     return vec_largest(vec_absolute(bounds->min), vec_absolute(bounds->max));
 }
 
-void bake_split_whole(f64 x, f32 *whole, f32 *rest)
-{
-    *whole = (f32)round(x);
-    *rest = (f32)(x - *whole);
-}
-
 // Common factor of a similarity's columns, 0 where m is none.
 static f64 similarity_factor(Affine m)
 {
@@ -134,7 +133,8 @@ static void bake_sphere(const Bake *bake, Vec3 center, f64 radius)
     const f64 s = similarity_factor(map);
     Primitive *out = bake->out;
     const Vec3 c = map.translation;
-    set_bounds(bake->bounds, c, (Vec3){vec_length(map.row[0]), vec_length(map.row[1]), vec_length(map.row[2])});
+    const Vec3 extent = {vec_length(map.row[0]), vec_length(map.row[1]), vec_length(map.row[2])};
+    set_bounds(bake->bounds, c, extent);
     pad_bounds(bake->bounds, map, inverse, half_extent(bake->bounds));
     if (s == 0) {
         out->kind = PRIMITIVE_ELLIPSOID;
@@ -160,9 +160,7 @@ static void bake_plane(const Bake *bake, Vec3 point, Vec3 normal)
     const Affine inverse = affine_inverse(bake->to_space);
     const Vec3 n = affine_normal(bake->to_space, normal);
     // q.t of an object-space point is the gradient A^T t times p, and a constant.
-    const Vec3 *a = inverse.row;
-    const Vec3 gradient1 = vec_add(vec_scale(a[0], t1.x), vec_add(vec_scale(a[1], t1.y), vec_scale(a[2], t1.z)));
-    const Vec3 gradient2 = vec_add(vec_scale(a[0], t2.x), vec_add(vec_scale(a[1], t2.y), vec_scale(a[2], t2.z)));
+    const Vec3 gradient1 = transposed_direction(inverse, t1), gradient2 = transposed_direction(inverse, t2);
     const Vec3 from_point = vec_sub(inverse.translation, point);
     f32 u_whole, u_rest, v_whole, v_rest;
     bake_split_whole(vec_dot(from_point, t1), &u_whole, &u_rest);
@@ -205,7 +203,8 @@ static void bake_box(const Bake *bake, Vec3 min, Vec3 max)
 static void bake_tetrahedron(const Bake *bake, const Vec3 vertices[4])
 {
     const Vec3 a = vertices[0];
-    const Affine map = frame(bake, vec_sub(vertices[1], a), vec_sub(vertices[2], a), vec_sub(vertices[3], a), a);
+    const Affine map =
+        frame(bake, vec_sub(vertices[1], a), vec_sub(vertices[2], a), vec_sub(vertices[3], a), a);
     const Affine inverse = affine_inverse(map);
     const Vec3 k = inverse.translation;
     Primitive *out = bake->out;
@@ -292,8 +291,8 @@ static void bake_cone(const Bake *bake, Vec3 base, Vec3 top, f64 radius, f64 top
     tangents(vec_normalize(half), &t1, &t2);
     const bool top_wider = top_radius > radius;
     const f64 wide = top_wider ? top_radius : radius, narrow = top_wider ? radius : top_radius;
-    const Affine map = frame(bake, vec_scale(t1, wide), vec_scale(t2, wide), vec_scale(half, top_wider ? -1 : 1),
-                             vec_add(base, half));
+    const Vec3 narrowing = vec_scale(half, top_wider ? -1 : 1);
+    const Affine map = frame(bake, vec_scale(t1, wide), vec_scale(t2, wide), narrowing, vec_add(base, half));
     const Affine inverse = affine_inverse(map);
     Primitive *out = bake->out;
     out->kind = PRIMITIVE_CONE;
@@ -352,7 +351,8 @@ static bool primitive_in_range(const Primitive *p)
     return row_regular(p->row0) && row_regular(p->row1) && row_regular(p->row2);
 }
 
-bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, BakedBounds *bounds, Error *error)
+bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, BakedBounds *bounds,
+                Error *error)
 {
     const Bake bake = {.to_space = *to_space, .out = out, .bounds = bounds};
     const u32 id = out->id;
@@ -391,30 +391,5 @@ bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, Bake
     case SHAPE_MESH:
         return error_set(error, ERROR_SCENE, "a mesh is no single primitive");
     }
-    if (!primitive_in_range(out))
-        return error_set(error, ERROR_SCENE, "too large or too small, once transformed, for the float format");
-    return true;
-}
-
-bool bake_object_frame(const Affine *to_space, ObjectFrame *out, Error *error)
-{
-    const Affine inverse = affine_inverse(*to_space);
-    const Vec3 t = inverse.translation;
-    f32 whole[3], rest[3];
-    bake_split_whole(t.x, &whole[0], &rest[0]);
-    bake_split_whole(t.y, &whole[1], &rest[1]);
-    bake_split_whole(t.z, &whole[2], &rest[2]);
-    out->row0 = row_of(inverse.row[0], whole[0]);
-    out->row1 = row_of(inverse.row[1], whole[1]);
-    out->row2 = row_of(inverse.row[2], whole[2]);
-    // Normals go back by the transpose of the way there; its size does not matter.
-    const Vec3 *m = to_space->row;
-    const Vec3 top = vec_largest(vec_absolute(m[0]), vec_largest(vec_absolute(m[1]), vec_absolute(m[2])));
-    const f64 size = fmax(top.x, fmax(top.y, top.z));
-    out->normal0 = row_of((Vec3){m[0].x / size, m[1].x / size, m[2].x / size}, rest[0]);
-    out->normal1 = row_of((Vec3){m[0].y / size, m[1].y / size, m[2].y / size}, rest[1]);
-    out->normal2 = row_of((Vec3){m[0].z / size, m[1].z / size, m[2].z / size}, rest[2]);
-    if (!row_regular(out->row0) || !row_regular(out->row1) || !row_regular(out->row2))
-        return error_set(error, ERROR_SCENE, "too large or too small, once transformed, for the float format");
-    return true;
+    return primitive_in_range(out) || error_set(error, ERROR_SCENE, BAKE_OUT_OF_RANGE);
 }

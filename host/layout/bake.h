@@ -9,6 +9,8 @@
 #include "shared/object_frame.h"
 #include "shared/primitive.h"
 
+#define BAKE_OUT_OF_RANGE "too large or too small, once transformed, for the float format"
+
 // Covers the primitive as it was rounded to float and the error of the hits on it. Planes are infinite.
 typedef struct BakedBounds {
     Vec3 min, max;
@@ -18,7 +20,8 @@ typedef struct BakedBounds {
 // shape->transform) to the space of the hierarchy: render space, where the camera is the origin, or the space
 // of an object. Fills all of *out but id. shape->kind must not be SHAPE_MESH. ERROR_SCENE where a number
 // of the result leaves the range of float; the message names neither the shape nor its place.
-bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, BakedBounds *bounds, Error *error);
+bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, BakedBounds *bounds,
+                Error *error);
 
 // The way back from that space. Numbers out of the range of float: ERROR_SCENE, as above.
 bool bake_object_frame(const Affine *to_space, ObjectFrame *out, Error *error);

@@ -207,8 +207,6 @@ Layout *layout_create(const Scene *scene, Error *error)
         layout->extras = placer.extras;
         layout->extra_count = placer.extra_count;
         placer.extras = NULL;
-        layout->params.pending_depth =
-            features_have(layout->features, FEATURE_BRANCHING) ? scene->render.max_depth : 0;
     }
     placer_destroy(&placer);
     if (!ok) {

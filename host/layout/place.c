@@ -116,7 +116,7 @@ static bool add_shape(Placer *placer, PrimitiveList *list, const Shape *shape, A
                               box_from_bounds(bounds.min, bounds.max), error);
 }
 
-// The shapes of an object, in its own space, once.
+// The shapes of an object, in its own space, once. There is at least one.
 static bool list_object(Placer *placer, u32 index, Error *error)
 {
     const Scene *scene = placer->scene;
@@ -133,8 +133,10 @@ static bool list_object(Placer *placer, u32 index, Error *error)
         if (shape->kind != SHAPE_PLANE &&
             !add_shape(placer, &object->list, shape, affine_identity(), shape->material, order, error))
             return false;
+        object->inherits = object->inherits || (shape->kind != SHAPE_PLANE && shape->material < 0);
         order++;
     }
+    object->bounds = primitive_list_bounds(&object->list);
     object->listed = true;
     return true;
 }
@@ -165,7 +167,6 @@ static bool add_instance(Placer *placer, u32 index, const Placement *placement, 
         return false;
     const Affine map = affine_inverse(placement->to_render);
     const Vec3 c = placement->to_render.translation;
-    const Box local = primitive_list_bounds(&placer->objects[index].list);
     Primitive primitive;
     memset(&primitive, 0, sizeof primitive);
     primitive.row0 = (f32x4){ (f32)map.row[0].x, (f32)map.row[0].y, (f32)map.row[0].z, (f32)c.x };
@@ -177,11 +178,10 @@ static bool add_instance(Placer *placer, u32 index, const Placement *placement, 
     const PrimitiveInfo info = { (u32)material, NO_INDEX, (u32)placement->order,
                                  (u32)(placement->order >> 32) };
     placer->features |= feature_bit(FEATURE_INSTANCES);
-    for (u32 i = 0; i < placer->objects[index].list.count; i++)
-        if (placer->objects[index].list.infos[i].material == NO_INDEX)
-            placer->material_used[material] = true;
-    return primitive_list_add(&placer->top, &primitive, info, NULL, placed_box(&local, &placement->to_render),
-                              error);
+    if (placer->objects[index].inherits)
+        placer->material_used[material] = true;
+    return primitive_list_add(&placer->top, &primitive, info, NULL,
+                              placed_box(&placer->objects[index].bounds, &placement->to_render), error);
 }
 
 // A group that is being placed. Objects may nest as deep as a file likes, so the stack of them is our own.
@@ -231,7 +231,9 @@ static bool place_instance(Placer *placer, const Instance *instance, FrameStack 
                               frame->at.order };
     const bool listed = object->bounded > 1;
     frame->at.order += object->order_size;
-    return (!listed || add_instance(placer, instance->object, &inner, error)) &&
+    if (listed && !add_instance(placer, instance->object, &inner, error))
+        return false;
+    return (listed && !object->deeper) ||
            push_frame(stack, &placer->scene->objects[instance->object].group, inner, listed, error);
 }
 
@@ -266,9 +268,12 @@ static void measure(Placer *placer)
             if (group->items[k].kind == ITEM_INSTANCE) {
                 const Instance *instance = &scene->instances[group->items[k].index];
                 placer->objects[i].order_size += placer->objects[instance->object].order_size;
+                placer->objects[i].deeper = true;
             } else {
+                const bool plane = scene->shapes[group->items[k].index].kind == SHAPE_PLANE;
                 placer->objects[i].order_size++;
-                placer->objects[i].bounded += scene->shapes[group->items[k].index].kind != SHAPE_PLANE;
+                placer->objects[i].bounded += !plane;
+                placer->objects[i].deeper = placer->objects[i].deeper || plane;
             }
         }
     }

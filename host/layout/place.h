@@ -13,7 +13,10 @@ typedef struct ObjectLayout {
     PrimitiveList list;
     u64 order_size; // primitives in all, those of placed objects counted for each placement
     u32 bounded;    // shapes of its own that are not planes
-    bool listed;    // list is filled
+    bool deeper;    // holds planes or instances, which are placed one by one
+    bool listed;    // list is filled, and what follows
+    Box bounds;     // of the list
+    bool inherits;  // some shape of the list takes the material of the instance
     u32 root;       // node of its hierarchy, once that is built
 } ObjectLayout;
 

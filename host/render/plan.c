@@ -13,6 +13,13 @@ enum {
     FIRST_PIXEL_SAMPLES = 2 << 20
 };
 
+static bool can_compile(DeviceShape shape)
+{
+    const bool lanes = shape.lanes == 1 || shape.lanes == 4 || shape.lanes == 8 || shape.lanes == 16;
+    return lanes && shape.batch >= 1 && shape.batch <= BATCH_CPU && shape.batch % shape.lanes == 0 &&
+           shape.group >= 1 && shape.group <= TILE_SLOTS;
+}
+
 DeviceShape plan_device_shape(const DeviceInfo *info)
 {
     DeviceShape shape = { 1, 1, GROUP_GPU };
@@ -23,21 +30,20 @@ DeviceShape plan_device_shape(const DeviceInfo *info)
     }
     const char *wish = getenv("CLRT_SHAPE");
     DeviceShape asked;
-    if (wish && sscanf(wish, "%u,%u,%u", &asked.lanes, &asked.batch, &asked.group) == 3 && asked.group >= 1 &&
-        asked.group <= TILE_PIXELS && asked.batch <= BATCH_CPU && asked.lanes >= 1 &&
-        asked.batch % asked.lanes == 0)
+    if (wish && sscanf(wish, "%u,%u,%u", &asked.lanes, &asked.batch, &asked.group) == 3 && can_compile(asked))
         shape = asked;
     return shape;
 }
 
 u32 plan_tiles(const Plan *plan, u32 rows)
 {
-    return (plan->width + TILE_WIDTH - 1) / TILE_WIDTH * ((rows + TILE_HEIGHT - 1) / TILE_HEIGHT);
+    const u32 side = TILE_SIDE >> plan->slots_log2 / 2;
+    return (plan->width + side - 1) / side * ((rows + side - 1) / side);
 }
 
 u64 plan_state_bytes(const Plan *plan, u32 groups)
 {
-    return (u64)groups * (plan->real_fields + plan->int_fields) * TILE_PIXELS * 4 +
+    return (u64)groups * (plan->real_fields + plan->int_fields) * TILE_SLOTS * 4 +
            (u64)groups * plan->shape.group * RAYS_KINDS * 4;
 }
 
@@ -49,7 +55,8 @@ u64 plan_film_bytes(const Plan *plan, u32 rows)
 u32 plan_first_samples(const Plan *plan)
 {
     const u64 samples = FIRST_PIXEL_SAMPLES / ((u64)plan->width * plan->band_rows);
-    return samples < 1 ? 1 : samples > 64 ? 64 : (u32)samples;
+    const u32 round = 1u << plan->slots_log2;
+    return samples < round ? round : samples > 64 ? 64 : (u32)samples / round * round;
 }
 
 static u64 scene_bytes(const Layout *layout)
@@ -68,13 +75,23 @@ static void count_fields(Plan *plan, const Layout *layout)
     const FeatureSet set = layout->features;
     const u32 shadows = features_have(set, FEATURE_SHADOWS), samples = features_have(set, FEATURE_SAMPLES);
     const u32 instances = features_have(set, FEATURE_INSTANCES);
-    const u32 branching = features_have(set, FEATURE_BRANCHING), pending = layout->params.pending_depth;
+    const u32 branching = features_have(set, FEATURE_BRANCHING);
+    const u32 pending = branching ? layout->params.max_depth : 0; // at most one parked ray a depth
     const u32 lights = layout->light_count;
     plan->lights_per_pass = lights < LIGHTS_PER_PASS_MAX ? lights : LIGHTS_PER_PASS_MAX;
     plan->samples = samples;
-    plan->pending_reals = STATE_REALS(samples, shadows, plan->lights_per_pass);
+    plan->slots_log2 = layout->params.samples >= 16 ? 4 : layout->params.samples >= 4 ? 2 : 0;
+    plan->pending_reals = STATE_REALS(shadows, plan->lights_per_pass);
     plan->real_fields = plan->pending_reals + pending * PENDING_REALS;
     plan->int_fields = STATE_INTS(shadows, branching, instances) + pending * PENDING_INTS(instances);
+}
+
+// At most `groups`, so many that the buffer of their states is not larger than the device allows.
+static u64 groups_that_fit(const Plan *plan, const DeviceInfo *info, u64 groups)
+{
+    const u64 fields = plan->real_fields > plan->int_fields ? plan->real_fields : plan->int_fields;
+    const u64 most = info->allocation_max / (fields * TILE_SLOTS * 4);
+    return groups < most ? groups : most > 1 ? most : 1;
 }
 
 bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, u32 width, u32 height,
@@ -86,7 +103,7 @@ bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, u32 wid
     count_fields(plan, layout);
     const u64 scene = scene_bytes(layout);
     const u64 limit = memory_limit && memory_limit < info->memory ? memory_limit : info->memory;
-    const u64 least = scene + plan_state_bytes(plan, 1) + plan_film_bytes(plan, TILE_HEIGHT);
+    const u64 least = scene + plan_state_bytes(plan, 1) + plan_film_bytes(plan, TILE_SIDE);
     if (least > limit)
         return error_set(error, ERROR_MEMORY,
                          "the scene and one row of tiles need %llu MiB on the device, more than the limit of "
@@ -94,12 +111,13 @@ bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, u32 wid
                          (unsigned long long)((least >> 20) + 1), (unsigned long long)(limit >> 20));
     // Half of what is left for the tiles, the rest for the film.
     const u64 free_bytes = limit - least;
-    const u64 tile = plan_state_bytes(plan, 1), strip = plan_film_bytes(plan, TILE_HEIGHT);
+    const u64 tile = plan_state_bytes(plan, 1), strip = plan_film_bytes(plan, TILE_SIDE);
     const u32 wanted = info->type == DEVICE_CPU ? info->compute_units * GROUPS_A_UNIT_CPU : GROUPS_GPU;
-    const u64 strips_wanted = BAND_PIXELS / ((u64)width * TILE_HEIGHT) + 1;
-    const u64 groups = 1 + free_bytes / 2 / tile, strips = 1 + free_bytes / 2 / strip;
+    const u64 strips_wanted = BAND_PIXELS / ((u64)width * TILE_SIDE) + 1;
+    const u64 groups = groups_that_fit(plan, info, 1 + free_bytes / 2 / tile);
+    const u64 strips = 1 + free_bytes / 2 / strip;
     plan->groups = groups < wanted ? (u32)groups : wanted;
-    const u64 rows = (strips < strips_wanted ? strips : strips_wanted) * TILE_HEIGHT;
+    const u64 rows = (strips < strips_wanted ? strips : strips_wanted) * TILE_SIDE;
     plan->band_rows = rows < height ? (u32)rows : height;
     const u32 tiles = plan_tiles(plan, plan->band_rows);
     plan->groups = plan->groups < tiles ? plan->groups : tiles;

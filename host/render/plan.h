@@ -22,7 +22,8 @@ typedef struct Plan {
     u32 groups;          // tiles in flight
     u32 lights_per_pass; // 0 where no light casts shadows
     u32 real_fields, int_fields, pending_reals; // of a slot
-    bool samples;
+    u32 slots_log2;      // of a pixel, see RenderParams
+    bool samples;        // more than one
 } Plan;
 
 // CPUs: vectors as wide as the device's, one work-item a tile. GPUs: a ray a work-item. The environment

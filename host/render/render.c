@@ -95,7 +95,7 @@ static bool add_work_buffers(Render *render, Error *error)
     render->stats.band_rows = plan->band_rows;
     render->stats.groups = plan->groups;
     const u64 film = (u64)plan->band_rows * plan->width * 3 * sizeof(f32);
-    const u64 field = TILE_PIXELS * 4;
+    const u64 field = TILE_SLOTS * 4;
     render->rows = malloc(film);
     render->counts = malloc(items * RAYS_KINDS * sizeof *render->counts);
     if (!render->rows || !render->counts)
@@ -123,6 +123,7 @@ static void set_params(Render *render)
     render->params.crop_width = job->width;
     render->params.crop_height = job->height;
     render->params.lights_per_pass = render->plan.lights_per_pass;
+    render->params.slots_log2 = render->plan.slots_log2;
 }
 
 static bool build(Render *render, Error *error)
@@ -152,7 +153,7 @@ Render *render_create(const RenderJob *job, Error *error)
                         job->memory_limit, error);
     if (ok) {
         set_params(render);
-        render->samples_a_launch = plan_first_samples(&render->plan);
+        render->samples_a_launch = plan_first_samples(&render->plan); // whole rounds of the slots
         ok = build(render, error) && add_scene(render, error) && add_work_buffers(render, error);
     }
     if (!ok) {
@@ -212,7 +213,8 @@ static void adapt_launch(Render *render, u32 samples, f64 seconds)
     const f64 wanted = 0.2 * samples / (seconds > 1e-6 ? seconds : 1e-6);
     const f64 most = 4.0 * samples;
     const f64 next = wanted < most ? wanted : most;
-    render->samples_a_launch = next < 1 ? 1 : next > 1e6 ? 1000000 : (u32)next;
+    const u32 round = 1u << render->plan.slots_log2;
+    render->samples_a_launch = next < round ? round : next > 1e6 ? 1 << 20 : (u32)next / round * round;
 }
 
 bool render_step(Render *render, RenderRows *rows, Error *error)

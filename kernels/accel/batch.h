@@ -54,9 +54,11 @@ typedef struct {
 
 static inline int lowest_bit(uint bits) { return 31 - (int)clz(bits & -bits); }
 
+// Bits of the rays of a batch that are meant, count of them or all.
 static inline uint batch_mask(uint count)
 {
-    return count >= 32 ? 0xffffffffu : (1u << count) - 1u;
+    const uint rays = count < BATCH ? count : BATCH;
+    return rays == 32 ? 0xffffffffu : (1u << rays) - 1u;
 }
 
 static inline PrimitiveLanes primitive_splat(global const Primitive *p)

@@ -6,7 +6,7 @@
 #define STACK_SIZE (BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1)
 
 // From so many rays of a batch on it pays to test box by box.
-#define PACKET_RAYS 12
+#define PACKET_RAYS 20
 
 typedef union { int8 v; int s[8]; } Int8;
 typedef union { float8 v; float s[8]; } Float8;
@@ -96,33 +96,34 @@ static inline void test_children_by_box(global const BvhNode *node, const BatchR
 {
     children->mask.v = (int8)(0);
     children->near.v = (float8)(INFINITY);
-    for (int first = 0; first < BATCH; first += LANES) {
-        const uint bits = mask >> first & ((1u << LANES) - 1u);
-        if (!bits)
-            continue;
-        const vf org_x = VF_LOAD(&rays->org_x[first]), inv_x = VF_LOAD(&slabs->inv_x[first]);
-        const vf org_y = VF_LOAD(&rays->org_y[first]), inv_y = VF_LOAD(&slabs->inv_y[first]);
-        const vf org_z = VF_LOAD(&rays->org_z[first]), inv_z = VF_LOAD(&slabs->inv_z[first]);
-        const vm back_x = inv_x < (vf)(0.0f), back_y = inv_y < (vf)(0.0f), back_z = inv_z < (vf)(0.0f);
-        const vf end = VF_LOAD(&hits->tfar[first]);
-        for (int slot = 0; slot < BVH_WIDTH && node->lower_x[slot] <= node->upper_x[slot]; slot++) {
+    for (int slot = 0; slot < BVH_WIDTH && node->lower_x[slot] <= node->upper_x[slot]; slot++) {
+        uint reached = 0;
+        vf near = (vf)(INFINITY);
+        for (int first = 0; first < BATCH; first += LANES) {
+            const vf org_x = VF_LOAD(&rays->org_x[first]), inv_x = VF_LOAD(&slabs->inv_x[first]);
+            const vf org_y = VF_LOAD(&rays->org_y[first]), inv_y = VF_LOAD(&slabs->inv_y[first]);
+            const vf org_z = VF_LOAD(&rays->org_z[first]), inv_z = VF_LOAD(&slabs->inv_z[first]);
             const vf low_x = (node->lower_x[slot] - org_x) * inv_x, high_x = (node->upper_x[slot] - org_x) * inv_x;
             const vf low_y = (node->lower_y[slot] - org_y) * inv_y, high_y = (node->upper_y[slot] - org_y) * inv_y;
             const vf low_z = (node->lower_z[slot] - org_z) * inv_z, high_z = (node->upper_z[slot] - org_z) * inv_z;
-            vf tnear = vf_max(back_x ? high_x : low_x, (vf)(0.0f)), tfar = vf_min(back_x ? low_x : high_x, end);
+            const vm back_x = inv_x < (vf)(0.0f), back_y = inv_y < (vf)(0.0f), back_z = inv_z < (vf)(0.0f);
+            vf tnear = vf_max(back_x ? high_x : low_x, (vf)(0.0f));
+            vf tfar = vf_min(back_x ? low_x : high_x, VF_LOAD(&hits->tfar[first]));
             tnear = vf_max(back_y ? high_y : low_y, tnear);
             tfar = vf_min(back_y ? low_y : high_y, tfar);
             tnear = vf_max(back_z ? high_z : low_z, tnear);
             tfar = vf_min(back_z ? low_z : high_z, tfar);
-            const uint hit = vm_bits(tnear <= tfar * BOX_SLACK) & bits;
-            if (!hit)
-                continue;
-            children->mask.s[slot] |= (int)(hit << first);
-            // The order of the children decides speed alone: any ray's distance will do.
-            LanesF seen;
-            seen.v = tnear;
-            children->near.s[slot] = min(children->near.s[slot], seen.s[lowest_bit(hit)]);
+            const vm hit = tnear <= tfar * BOX_SLACK;
+            reached |= vm_bits(hit) << first;
+            near = vf_min(hit ? tnear : (vf)(INFINITY), near);
         }
+        LanesF lanes;
+        real nearest = INFINITY;
+        lanes.v = near;
+        for (int k = 0; k < LANES; k++)
+            nearest = min(nearest, lanes.s[k]);
+        children->mask.s[slot] = (int)(reached & mask);
+        children->near.s[slot] = nearest;
     }
 }
 #endif

@@ -28,7 +28,8 @@ static inline v3 offset_origin(v3 point, v3 error, v3 ng, v3 dir)
     const vf side = v3_dot(dir, ng) < (vf)(0.0f) ? -distance : distance;
     const v3 away = v3_scale(ng, side);
     const v3 moved = v3_add(point, away);
-    return v3_make(next_towards(moved.x, away.x), next_towards(moved.y, away.y), next_towards(moved.z, away.z));
+    return v3_make(next_towards(moved.x, away.x), next_towards(moved.y, away.y),
+                   next_towards(moved.z, away.z));
 }
 
 #endif

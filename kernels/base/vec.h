@@ -8,6 +8,7 @@ typedef struct { vf x, y, z; } v3;
 
 static inline v3 v3_make(vf x, vf y, vf z) { v3 r; r.x = x; r.y = y; r.z = z; return r; }
 static inline v3 v3_splat(real s) { return v3_make((vf)(s), (vf)(s), (vf)(s)); }
+static inline v3 v3_from(float4 s) { return v3_make((vf)(s.x), (vf)(s.y), (vf)(s.z)); }
 static inline v3 v3_add(v3 a, v3 b) { return v3_make(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline v3 v3_sub(v3 a, v3 b) { return v3_make(a.x - b.x, a.y - b.y, a.z - b.z); }
 static inline v3 v3_mul(v3 a, v3 b) { return v3_make(a.x * b.x, a.y * b.y, a.z * b.z); }

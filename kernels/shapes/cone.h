@@ -91,7 +91,8 @@ static inline void surface_cone(const PrimitiveLanes *p, const RayLanes *ray, vf
     // Somebody who faces the top sees x to the right, at the base to the left.
     const vm on_top = (end > (vf)(0.0f)) != flipped;
     const vf across = q.x / cone_radius(p, end), up = q.y / cone_radius(p, end);
-    surface_uv(s, on_wall ? uv_turn(q.y, q.x) : uv_clamp(fma(on_top ? across : -across, (vf)(0.5f), (vf)(0.5f))),
+    const vf end_u = uv_clamp(fma(on_top ? across : -across, (vf)(0.5f), (vf)(0.5f)));
+    surface_uv(s, on_wall ? uv_turn(q.y, q.x) : end_u,
                uv_clamp(fma(on_wall ? height : up, (vf)(0.5f), (vf)(0.5f))));
 #endif
 }

@@ -71,7 +71,8 @@ static inline RoundSolid cylinder_solid(const PrimitiveLanes *p, const RayLanes 
     RoundSolid s = round_solid(p, ray);
     const v3 o = s.o, d = s.d;
     const vf rho = sqrt(fma(o.x, o.x, o.y * o.y));
-    s.wall = quadratic_within(fma(d.x, d.x, d.y * d.y), fma(o.x, d.x, o.y * d.y), (rho - 1.0f) * (rho + 1.0f));
+    s.wall = quadratic_within(fma(d.x, d.x, d.y * d.y), fma(o.x, d.x, o.y * d.y),
+                              (rho - 1.0f) * (rho + 1.0f));
     return s;
 }
 

@@ -108,7 +108,8 @@ static inline void surface_curved(const PrimitiveLanes *p, v3 gradient, vf value
     const v3 g = canonical_gradient(p, gradient);
     const vf inverse = (vf)(1.0f) / sqrt(v3_dot(g, g));
     const v3 f = v3_abs(v3_sub(s->p, p->c));
-    const v3 spread = v3_make(v3_dot(v3_abs(p->row0), f), v3_dot(v3_abs(p->row1), f), v3_dot(v3_abs(p->row2), f));
+    const v3 spread = v3_make(v3_dot(v3_abs(p->row0), f), v3_dot(v3_abs(p->row1), f),
+                              v3_dot(v3_abs(p->row2), f));
     const vf terms = fma(v3_dot(v3_abs(gradient), spread), (vf)(4.0f), (vf)(roundings));
     s->ng = v3_scale(g, inverse);
     surface_settle(s, value * inverse, ROUNDING * terms * inverse);

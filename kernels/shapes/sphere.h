@@ -33,7 +33,8 @@ static inline void sphere_uv(SurfaceLanes *s, v3 n)
 {
     const vf turn = vf_atan2(n.x, n.z) * 0.15915494f + 0.5f;
     const vf rho = sqrt(fma(n.x, n.x, n.z * n.z));
-    surface_uv(s, turn >= (vf)(1.0f) ? (vf)(0.0f) : turn, fma(vf_atan2(rho, n.y), (vf)(-0.31830987f), (vf)(1.0f)));
+    surface_uv(s, turn >= (vf)(1.0f) ? (vf)(0.0f) : turn,
+               fma(vf_atan2(rho, n.y), (vf)(-0.31830987f), (vf)(1.0f)));
 }
 #endif
 

@@ -11,7 +11,7 @@
 // All in the space of the primitive.
 typedef struct {
     v3 p;     // the hit point, moved onto the surface along ng
-    v3 error; // bound of the distance of p from the surface, as one a coordinate: sum |ng_i| error_i covers it
+    v3 error; // of p's place off the surface: sum |ng_i| error_i is a bound of the distance
     v3 ng;    // unit geometric normal, outward as the scene language defines
 #if HAS_UV
     vf u, v;             // texture coordinates; of a triangle b1, b2

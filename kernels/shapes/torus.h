@@ -1,6 +1,6 @@
-// TORUS. The ray is moved to the point closest to the centre, where all numbers are of the size of 1; there the
-// quartic's derivative, a depressed cubic, gives places between which there is at most one root. They need
-// not be exact: the roots are bracketed and refined on the distance to the ring itself, so that no
+// TORUS. The ray is moved to the point closest to the centre, where all numbers are of the size of 1; there
+// the quartic's derivative, a depressed cubic, gives places between which there is at most one root. They
+// need not be exact: the roots are bracketed and refined on the distance to the ring itself, so that no
 // coefficient of a quartic ever decides.
 #ifndef CLRT_KERNELS_SHAPES_TORUS_H
 #define CLRT_KERNELS_SHAPES_TORUS_H

@@ -8,7 +8,7 @@
 // Deepest wide node is at most this many levels below its root; the builder keeps the promise and the
 // traversal stack (BVH_WIDTH - 1 entries a level) relies on it.
 #define BVH_MAX_DEPTH 48
-#define BVH_MAX_LEAF 4
+#define BVH_MAX_LEAF 1
 
 // Lower and upper planes, in units of the space that the hierarchy lives in; an empty slot has
 // lower +infinity and upper -infinity, which no ray hits. child >= 0: index of a node; < 0: ~((first << 4) | count), count primitives from first on.

@@ -4,10 +4,11 @@
 
 #include "shared/types.h"
 
-// Pixels of a tile; a work-group renders one tile at a time and has one slot a pixel.
-#define TILE_WIDTH 16
-#define TILE_HEIGHT 16
-#define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
+// A work-group renders one tile at a time with this many slots. A tile is a square of TILE_SIDE pixels with one
+// slot each or, where there are samples enough, of half or a quarter of that with 4 or 16 slots a pixel, one for
+// each of as many consecutive samples: rays of one pixel stay together longest.
+#define TILE_SIDE 16
+#define TILE_SLOTS (TILE_SIDE * TILE_SIDE)
 
 typedef struct RenderParams {
     f32x4 camera_right; // u, v, w of the scene language
@@ -26,7 +27,7 @@ typedef struct RenderParams {
     u32 lights_per_pass; // lights whose shadow rays are queued at once
     u32 plane_count;     // the first primitives are the infinite planes
     u32 root;            // node of the top-level hierarchy; NO_INDEX: none
-    u32 pending_depth;   // parked rays a slot can hold
+    u32 slots_log2;      // of a pixel: 0, 2 or 4
 } RenderParams;
 LAYOUT_SIZE(RenderParams, 128);
 LAYOUT_OFFSET(RenderParams, pixel_scale, 64);

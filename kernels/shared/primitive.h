@@ -7,8 +7,8 @@
 // to their distance from the camera, however large the shape.
 //
 //   SPHERE       similarity: A = the rotation to object axes (rows orthonormal), c = centre, p0 = radius
-//   GIANT_SPHERE the same where the surface passes close by the origin of the space: p1 = |c|^2 - r^2, computed
-//                in double; the surface is |p|^2 - 2 c.p + p1 = 0, so that rounding c moves it little there
+//   GIANT_SPHERE the same where the surface passes close by the origin of the space: p1 = |c|^2 - r^2, from
+//                double; the surface is |p|^2 - 2 c.p + p1 = 0, so that rounding c moves it little there
 //   ELLIPSOID    a sphere under any other transform: q = A (p - c), |q| = 1, q along object axes
 //   PLANE        row2.xyz = unit normal n; p0 = n.p on the plane; row0.xyz, row1.xyz = gradients of u and v;
 //                u = row0.p + (row0.w + row1.w), v = row1.p + (row2.w + p1): first term of each sum a whole

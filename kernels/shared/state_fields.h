@@ -4,9 +4,9 @@
 #define CLRT_SHARED_STATE_FIELDS_H
 
 #define PENDING_REALS 9
-#define STATE_REALS(samples, shadows, lights) (16 + 3 * (samples) + (shadows) * (3 + 7 * (lights)))
+#define STATE_REALS(shadows, lights) (13 + (shadows) * (3 + 7 * (lights)))
 #define PENDING_INTS(instances) (2 + (instances))
-#define STATE_INTS(shadows, branching, instances) (7 + (shadows) + (branching) + 2 * (instances))
+#define STATE_INTS(shadows, branching, instances) (6 + (shadows) + (branching) + 2 * (instances))
 
 // Lights whose shadow rays a slot can hold at once; a bit of FLAGS each.
 #define LIGHTS_PER_PASS_MAX 16

@@ -24,7 +24,7 @@ OUTLINE uint queue_compact(const State *s, global const int *from, uint count, i
     uint total = 0;
     GROUP_BARRIER();
 #if GROUP > 1
-    global const int *flags = s->ints + FLAGS * TILE_PIXELS;
+    global const int *flags = s->ints + FLAGS * TILE_SLOTS;
     for (uint base = 0; base < count; base += GROUP) {
         const uint i = base + GROUP_ITEM;
         const uint keep = i < count && (flags[from[i]] & wanted) != 0 ? 1 : 0;

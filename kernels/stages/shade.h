@@ -113,7 +113,7 @@ OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *s
                               global const LightRecord *lights, constant RenderParams *params,
                               const LightPass *pass, uint count, uint *rays)
 {
-    global const int *queue = s->ints + QUEUE * TILE_PIXELS;
+    global const int *queue = s->ints + QUEUE * TILE_SLOTS;
     for (uint i = GROUP_ITEM * LANES; i < count; i += GROUP * LANES) {
         const Slots slots = slots_make(queue, i, count);
 #if HAS_SURFACES || HAS_BACKGROUND

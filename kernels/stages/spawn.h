@@ -86,26 +86,26 @@ static inline void store_ray(const State *s, const Slots *slots, const NextRay *
 // Place of the parked ray on top of each slot's stack, for gather and scatter.
 static inline vi pending_place(const Slots *slots, vi entry, int fields)
 {
-    return entry * (fields * TILE_PIXELS) + slots->index;
+    return entry * (fields * TILE_SLOTS) + slots->index;
 }
 
 OUTLINE void park_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance, vm m)
 {
     const vi count = state_load_int(s, PENDING_COUNT, slots);
-    global real *reals = s->reals + s->pending_reals * TILE_PIXELS;
-    global int *ints = s->ints + INT_FIELDS * TILE_PIXELS;
+    global real *reals = s->reals + s->pending_reals * TILE_SLOTS;
+    global int *ints = s->ints + INT_FIELDS * TILE_SLOTS;
     const vi place = pending_place(slots, count, PENDING_REALS);
     const v3 parts[3] = { ray->org, ray->dir, ray->throughput };
     for (int k = 0; k < 3; k++) {
-        vf_scatter(reals + 3 * k * TILE_PIXELS, place, parts[k].x, m);
-        vf_scatter(reals + (3 * k + 1) * TILE_PIXELS, place, parts[k].y, m);
-        vf_scatter(reals + (3 * k + 2) * TILE_PIXELS, place, parts[k].z, m);
+        vf_scatter(reals + 3 * k * TILE_SLOTS, place, parts[k].x, m);
+        vf_scatter(reals + (3 * k + 1) * TILE_SLOTS, place, parts[k].y, m);
+        vf_scatter(reals + (3 * k + 2) * TILE_SLOTS, place, parts[k].z, m);
     }
     const vi int_place = pending_place(slots, count, PENDING_INTS(HAS_INSTANCES));
     vi_scatter(ints, int_place, ray->self, m);
-    vi_scatter(ints + TILE_PIXELS, int_place, depth, m);
+    vi_scatter(ints + TILE_SLOTS, int_place, depth, m);
 #if HAS_INSTANCES
-    vi_scatter(ints + 2 * TILE_PIXELS, int_place, instance, m);
+    vi_scatter(ints + 2 * TILE_SLOTS, int_place, instance, m);
 #endif
     state_store_int(s, PENDING_COUNT, slots, count + 1, m);
 }
@@ -115,21 +115,21 @@ OUTLINE void unpark_ray(const State *s, const Slots *slots, vm m)
 {
     const vi count = state_load_int(s, PENDING_COUNT, slots);
     const vi entry = m ? count - 1 : (vi)(0);
-    global const real *reals = s->reals + s->pending_reals * TILE_PIXELS;
-    global const int *ints = s->ints + INT_FIELDS * TILE_PIXELS;
+    global const real *reals = s->reals + s->pending_reals * TILE_SLOTS;
+    global const int *ints = s->ints + INT_FIELDS * TILE_SLOTS;
     const vi place = pending_place(slots, entry, PENDING_REALS);
     NextRay ray;
     v3 *parts[3] = { &ray.org, &ray.dir, &ray.throughput };
     for (int k = 0; k < 3; k++)
-        *parts[k] = v3_make(vf_gather(reals + 3 * k * TILE_PIXELS, place),
-                            vf_gather(reals + (3 * k + 1) * TILE_PIXELS, place),
-                            vf_gather(reals + (3 * k + 2) * TILE_PIXELS, place));
+        *parts[k] = v3_make(vf_gather(reals + 3 * k * TILE_SLOTS, place),
+                            vf_gather(reals + (3 * k + 1) * TILE_SLOTS, place),
+                            vf_gather(reals + (3 * k + 2) * TILE_SLOTS, place));
     const vi int_place = pending_place(slots, entry, PENDING_INTS(HAS_INSTANCES));
     vi instance = (vi)(NO_HIT);
     ray.self = vi_gather(ints, int_place);
-    const vi depth = vi_gather(ints + TILE_PIXELS, int_place);
+    const vi depth = vi_gather(ints + TILE_SLOTS, int_place);
 #if HAS_INSTANCES
-    instance = vi_gather(ints + 2 * TILE_PIXELS, int_place);
+    instance = vi_gather(ints + 2 * TILE_SLOTS, int_place);
 #endif
     store_ray(s, slots, &ray, depth, instance, m);
     state_store_int(s, PENDING_COUNT, slots, entry, m);

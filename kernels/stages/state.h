@@ -1,4 +1,4 @@
-// State of a tile: one slot a pixel, fields side by side (structure of arrays) in global memory that stays in
+// State of a tile: fields side by side (structure of arrays) in global memory that stays in
 // the cache of the core that works on the tile. A slot is one path in flight; only it writes its numbers.
 #ifndef CLRT_KERNELS_STAGES_STATE_H
 #define CLRT_KERNELS_STAGES_STATE_H
@@ -7,22 +7,16 @@
 #include "shared/params.h"
 #include "shared/state_fields.h"
 
-// Fields of reals. A field is TILE_PIXELS numbers.
+// Fields of reals. A field is TILE_SLOTS numbers.
 enum {
     RAY_ORG,                    // 3: the ray in flight, in render space
     RAY_DIR = RAY_ORG + 3,      // 3: unit
     RAY_T = RAY_DIR + 3,        // of its hit, INFINITY for a miss
     THROUGHPUT,                 // 3: product of the weights along the path
     RADIANCE = THROUGHPUT + 3,  // 3: of the sample so far
-    FILM = RADIANCE + 3,        // 3: sum of the pixel's samples
-#if HAS_SAMPLES
-    FILM_LOW = FILM + 3,        // 3: what the additions to FILM have rounded away
-    FILM_END = FILM_LOW + 3,
-#else
-    FILM_END = FILM + 3,
-#endif
+    RADIANCE_END = RADIANCE + 3,
 #if HAS_SHADOWS
-    SHADOW_ORG = FILM_END,      // 3: hit point moved off the surface
+    SHADOW_ORG = RADIANCE_END,  // 3: hit point moved off the surface
     SHADOW_LIGHTS = SHADOW_ORG + 3, // SHADOW_FIELDS for each light of a pass
     SHADOW_DIR = 0,             // 3: unit, towards the light
     SHADOW_T = 3,               // distance of the light; 0: no shadow ray
@@ -35,8 +29,7 @@ enum {
 enum {
     SELF,        // primitive that the ray starts on, as BatchHits.self
     PRIMITIVE,   // hit
-    DEPTH,       // of the ray in flight; < 0: none
-    SAMPLE,      // number of the sample in flight
+    DEPTH,       // of the ray in flight
     FLAGS,       // of the last stage, for compaction
 #if HAS_INSTANCES
     SELF_INSTANCE,
@@ -54,7 +47,7 @@ enum {
 };
 // A parked ray is 3 org, 3 dir, 3 throughput; self, depth and, where there are any, instance.
 
-typedef char state_reals_check[FILM_END == STATE_REALS(HAS_SAMPLES, 0, 0) ? 1 : -1];
+typedef char state_reals_check[RADIANCE_END == STATE_REALS(0, 0) ? 1 : -1];
 typedef char state_ints_check[INT_FIELDS == STATE_INTS(HAS_SHADOWS, HAS_BRANCHING, HAS_INSTANCES) ? 1 : -1];
 
 typedef struct {
@@ -83,13 +76,13 @@ static inline Slots slots_make(global const int *queue, uint position, uint coun
 
 static inline vf state_load(const State *s, uint field, const Slots *slots)
 {
-    global const real *base = s->reals + field * TILE_PIXELS;
+    global const real *base = s->reals + field * TILE_SLOTS;
     return slots->consecutive ? VF_LOAD(base + slots->first) : vf_gather(base, slots->index);
 }
 
 static inline vi state_load_int(const State *s, uint field, const Slots *slots)
 {
-    global const int *base = s->ints + field * TILE_PIXELS;
+    global const int *base = s->ints + field * TILE_SLOTS;
     return slots->consecutive ? VI_LOAD(base + slots->first) : vi_gather(base, slots->index);
 }
 
@@ -103,7 +96,7 @@ static inline v3 state_load3(const State *s, uint field, const Slots *slots)
 // written, old numbers in the other lanes.
 static inline void state_store(const State *s, uint field, const Slots *slots, vf value, vm m)
 {
-    global real *base = s->reals + field * TILE_PIXELS;
+    global real *base = s->reals + field * TILE_SLOTS;
     if (slots->consecutive)
         VF_STORE(m ? value : VF_LOAD(base + slots->first), base + slots->first);
     else
@@ -112,7 +105,7 @@ static inline void state_store(const State *s, uint field, const Slots *slots, v
 
 static inline void state_store_int(const State *s, uint field, const Slots *slots, vi value, vm m)
 {
-    global int *base = s->ints + field * TILE_PIXELS;
+    global int *base = s->ints + field * TILE_SLOTS;
     if (slots->consecutive)
         VI_STORE(m ? value : VI_LOAD(base + slots->first), base + slots->first);
     else

@@ -38,7 +38,7 @@ static inline void batch_aim(BatchRays *rays, BatchHits *hits, int first, v3 dir
 
 OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint count)
 {
-    global const int *queue = s->ints + QUEUE * TILE_PIXELS;
+    global const int *queue = s->ints + QUEUE * TILE_SLOTS;
     for (uint begin = GROUP_ITEM * BATCH; begin < count; begin += GROUP * BATCH) {
         BatchRays rays;
         BatchHits hits;
@@ -113,7 +113,7 @@ static inline void shadow_batch(const State *s, const Hierarchy *scene,
                                 global const MaterialRecord *materials, uint light, uint begin, uint count,
                                 uint mask, uint planes_out, BatchRays *rays, BatchHits *hits, real *radiance)
 {
-    global const int *queue = s->ints + QUEUE * TILE_PIXELS;
+    global const int *queue = s->ints + QUEUE * TILE_SLOTS;
     const uint fields = SHADOW_LIGHTS + light * SHADOW_FIELDS;
     real gain[3 * BATCH];
     for (int k = 0; k < BATCH; k += LANES) {
@@ -152,7 +152,7 @@ static inline void shadow_batch(const State *s, const Hierarchy *scene,
 OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global const MaterialRecord *materials,
                               global const LightRecord *lights, uint light_count, uint count, uint *traced)
 {
-    global const int *queue = s->ints + QUEUE * TILE_PIXELS;
+    global const int *queue = s->ints + QUEUE * TILE_SLOTS;
     for (uint begin = GROUP_ITEM * BATCH; begin < count; begin += GROUP * BATCH) {
         BatchRays rays;
         BatchHits hits;

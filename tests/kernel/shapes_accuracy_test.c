@@ -4,8 +4,7 @@
 // The measure is backward: an answer is K input ulps off if it is right for the shape with its surface moved
 // by K half-ulps of the coordinates that went in (ray, hit point, place and size of the shape). That is what
 // no float32 code can know better than, and it says the right thing at silhouettes, edges and far away.
-#include "shapes_reference.h"
-#include "shapes_support.h"
+#include "shapes_random.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,23 +13,6 @@
 enum { SHAPES = 96, RAYS = 102400, ALLOWED_ULPS = 16 };
 
 static const double U = 0x1p-24;
-
-typedef struct Placed {
-    Shape shape;
-    Affine map;
-    RealMap inverse;
-    double size;    // object units, the largest extent
-    double feature; // the smallest radius or edge
-} Placed;
-
-typedef struct Family {
-    const char *name;
-    ShapeKind kind;
-    int primitive; // PRIMITIVE_X that it becomes
-    bool affine;   // under any transform; else under similarities
-    bool open;     // cylinder and cone without caps
-    bool giant;
-} Family;
 
 static const Family families[] = {
     {"sphere", SHAPE_SPHERE, PRIMITIVE_SPHERE, false, false, false},
@@ -48,180 +30,35 @@ static const Family families[] = {
     {"triangle", SHAPE_TRIANGLE, PRIMITIVE_TRIANGLE, true, false, false},
 };
 
-static Vec3 random_vec(uint64_t *state, double extent)
-{
-    const double x = random_in(state, -extent, extent), y = random_in(state, -extent, extent);
-    return (Vec3){x, y, random_in(state, -extent, extent)};
-}
-
-static Vec3 random_unit_vec(uint64_t *state)
-{
-    double d[3];
-    random_direction(state, d);
-    return (Vec3){d[0], d[1], d[2]};
-}
-
-// A shape of size about 1 near the origin of its own coordinates.
-static Placed random_shape(const Family *family, uint64_t *state)
-{
-    Placed p = {.shape = {.kind = family->kind}, .size = 2, .feature = 1};
-    Shape *s = &p.shape;
-    const Vec3 c = random_vec(state, 1);
-    const double r = random_in(state, 0.2, 1);
-    switch (family->kind) {
-    case SHAPE_SPHERE:
-        s->as.sphere.center = c;
-        s->as.sphere.radius = r;
-        break;
-    case SHAPE_PLANE:
-        s->as.plane.point = c;
-        s->as.plane.normal = random_vec(state, 2);
-        break;
-    case SHAPE_BOX:
-        s->as.box.min = c;
-        s->as.box.max = vec_add(c, (Vec3){r, random_in(state, 0.1, 1), random_in(state, 0.1, 1)});
-        break;
-    case SHAPE_TETRAHEDRON:
-        s->as.tetrahedron.vertices[0] = c;
-        s->as.tetrahedron.vertices[1] = vec_add(c, (Vec3){r, random_in(state, -0.2, 0.2), 0.1});
-        s->as.tetrahedron.vertices[2] = vec_add(c, (Vec3){0.1, random_in(state, 0.3, 1), -0.1});
-        s->as.tetrahedron.vertices[3] = vec_add(c, (Vec3){0, random_in(state, -0.2, 0.2), r < 0.6 ? r : -r});
-        break;
-    case SHAPE_TRIANGLE:
-        s->as.triangle.vertices[0] = c;
-        s->as.triangle.vertices[1] = vec_add(c, vec_scale(random_unit_vec(state), r));
-        s->as.triangle.vertices[2] = vec_add(c, random_vec(state, 1));
-        break;
-    case SHAPE_DISK:
-        s->as.disk.center = c;
-        s->as.disk.normal = random_vec(state, 2);
-        s->as.disk.radius = r;
-        break;
-    case SHAPE_CYLINDER:
-        s->as.cylinder.base = c;
-        s->as.cylinder.top = vec_add(c, vec_scale(random_unit_vec(state), random_in(state, 0.2, 2)));
-        s->as.cylinder.radius = r;
-        s->as.cylinder.caps = !family->open;
-        break;
-    case SHAPE_CONE:
-        s->as.cone.base = c;
-        s->as.cone.top = vec_add(c, vec_scale(random_unit_vec(state), random_in(state, 0.2, 2)));
-        s->as.cone.radius = r;
-        s->as.cone.top_radius = random_unit(state) < 0.4 ? 0 : random_in(state, 0, 1.2);
-        s->as.cone.caps = !family->open;
-        break;
-    case SHAPE_TORUS:
-        s->as.torus.center = c;
-        s->as.torus.axis = random_vec(state, 2);
-        s->as.torus.major = r;
-        s->as.torus.minor = r * (random_unit(state) < 0.1 ? 1 : random_in(state, 0.05, 1));
-        p.feature = s->as.torus.minor;
-        break;
-    case SHAPE_MESH:
-        break;
-    }
-    p.feature = fmin(p.feature, r) * (family->kind == SHAPE_TETRAHEDRON || family->kind == SHAPE_TRIANGLE ? 0.1 : 1);
-    return p;
-}
-
-static Placed random_placed(const Family *family, uint64_t *state)
-{
-    Placed p = random_shape(family, state);
-    const double scale = random_scale(state, -6, 6);
-    Vec3 factors = {scale, scale, random_unit(state) < 0.3 ? -scale : scale};
-    if (family->affine && random_unit(state) < 0.7)
-        factors = (Vec3){scale, scale * random_in(state, 0.3, 1), -scale * random_in(state, 0.3, 2)};
-    p.map = affine_compose(affine_translate((Vec3){0.1, 0.2, 0.3}), affine_scale(factors));
-    if (random_unit(state) < 0.7)
-        p.map = affine_compose(affine_rotate(random_unit_vec(state), random_in(state, 0, 360)), p.map);
-    const double away = scale * random_scale(state, 0, 3);
-    if (family->giant) {
-        // The surface passes the origin at a small share of the radius.
-        const Vec3 c = affine_point(p.map, p.shape.as.sphere.center);
-        const double r = p.shape.as.sphere.radius * scale, gap = r * random_scale(state, -7, -2.5);
-        const Vec3 target = vec_scale(random_unit_vec(state), r + (random_unit(state) < 0.5 ? gap : -gap));
-        p.map.translation = vec_add(p.map.translation, vec_sub(target, c));
-    } else {
-        p.map.translation = vec_add(p.map.translation, vec_scale(random_unit_vec(state), 3 * away));
-    }
-    p.inverse = real_map_inverse(&p.map);
-    return p;
-}
-
-// A point of the shape's neighbourhood in space, often near its surface or edges.
-static Vec3 random_target(const Placed *p, uint64_t *state)
-{
-    Vec3 q = random_vec(state, 1.2);
-    const Shape *s = &p->shape;
-    const double pick = random_unit(state);
-    if (s->kind == SHAPE_TRIANGLE && pick < 0.5) {
-        const Vec3 *v = s->as.triangle.vertices;
-        const double a = random_unit(state), b = random_unit(state) * (1 - a);
-        q = vec_add(v[0], vec_add(vec_scale(vec_sub(v[1], v[0]), a), vec_scale(vec_sub(v[2], v[0]), b)));
-    } else if (s->kind == SHAPE_BOX && pick < 0.7) {
-        const Vec3 size = vec_sub(s->as.box.max, s->as.box.min);
-        q = vec_add(s->as.box.min, (Vec3){size.x * random_unit(state), size.y * random_unit(state),
-                                          pick < 0.2 ? 0 : size.z * random_unit(state)});
-    } else if (s->kind == SHAPE_TETRAHEDRON && pick < 0.7) {
-        const Vec3 *v = s->as.tetrahedron.vertices;
-        q = vec_scale(vec_add(vec_add(v[0], v[1]), vec_add(v[2], v[3])), 0.25);
-        q = vec_add(q, random_vec(state, 0.3));
-    } else if (s->kind == SHAPE_SPHERE && pick < 0.7) {
-        q = vec_add(s->as.sphere.center, vec_scale(random_unit_vec(state), s->as.sphere.radius * random_unit(state)));
-    } else if (s->kind == SHAPE_TORUS && pick < 0.7) {
-        q = vec_add(s->as.torus.center, vec_scale(random_unit_vec(state), s->as.torus.major));
-    } else if (s->kind == SHAPE_CYLINDER && pick < 0.7) {
-        const Vec3 axis = vec_sub(s->as.cylinder.top, s->as.cylinder.base);
-        q = vec_add(s->as.cylinder.base, vec_scale(axis, pick < 0.2 ? 0 : random_unit(state)));
-        q = vec_add(q, vec_scale(random_unit_vec(state), s->as.cylinder.radius));
-    } else if (s->kind == SHAPE_CONE && pick < 0.7) {
-        const Vec3 axis = vec_sub(s->as.cone.top, s->as.cone.base);
-        q = vec_add(s->as.cone.base, vec_scale(axis, pick < 0.2 ? 1 : random_unit(state)));
-        q = vec_add(q, vec_scale(random_unit_vec(state), s->as.cone.radius * random_unit(state)));
-    } else if (s->kind == SHAPE_DISK && pick < 0.7) {
-        q = vec_add(s->as.disk.center, vec_scale(random_unit_vec(state), s->as.disk.radius * 0.9));
-    }
-    return affine_point(p->map, q);
-}
-
-static void add_random_ray(RayTable *table, const Placed *p, int index, uint64_t *state)
-{
-    const Vec3 target = random_target(p, state);
-    Vec3 origin = {0, 0, 0};
-    const double pick = random_unit(state);
-    if (pick > 0.3) // around it, or within it
-        origin = affine_point(p->map, random_vec(state, pick > 0.7 ? 1 : random_scale(state, 0, 4)));
-    const float o[3] = {(float)origin.x, (float)origin.y, (float)origin.z};
-    Vec3 d = vec_sub(target, (Vec3){o[0], o[1], o[2]});
-    if (pick > 0.95) { // along an axis of space
-        const int axis = (int)(random_unit(state) * 3);
-        d = (Vec3){axis == 0 ? d.x : 0, axis == 1 ? d.y : 0, axis == 2 ? d.z : 0};
-    }
-    if (d.x == 0 && d.y == 0 && d.z == 0)
-        d.x = 1;
-    d = vec_normalize(d);
-    if (pick < 0.02) // as within an instance
-        d = vec_scale(d, random_scale(state, -6, 6));
-    ray_table_add(table, index, o, (float[3]){(float)d.x, (float)d.y, (float)d.z});
-}
-
 // ---- judging ----------------------------------------------------------------------------------
 
 typedef struct Verdicts {
     double worst_ulps;   // of input
     double worst_t_ulps; // of t, rays from the origin of space that meet the surface at no small angle
     double worst_normal, worst_uv; // in units of what is allowed
-    double worst_bound;  // distance from the surface over its stated bound
-    double widest_bound; // the bound in input ulps
+    double worst_bound;            // distance from the surface over its stated bound
+    double widest_bound;           // the bound in input ulps
     size_t hits, wrong;
 } Verdicts;
 
 typedef struct Case {
     const Placed *placed;
-    Real3 o, d;   // object space
+    Real3 o, d; // object space
     real exact;
     double scale; // object units: size of the numbers that went in
 } Case;
+
+static Real3 ray_vector(const RayTable *table, size_t i, int column)
+{
+    return real3(ray_number(table, i, column), ray_number(table, i, column + 1),
+                 ray_number(table, i, column + 2));
+}
+
+static Real3 hit_vector(const RayTable *table, size_t i, int column)
+{
+    return real3(hit_number(table, i, column), hit_number(table, i, column + 1),
+                 hit_number(table, i, column + 2));
+}
 
 static double magnitude(const Placed *p, const RayTable *table, size_t i, double t)
 {
@@ -243,7 +80,8 @@ static bool starts_on_surface(const Case *c, real grow)
     for (int k = 0; k < reference_pieces(&c->placed->shape); ++k) {
         real distance, uv[2];
         Real3 normal;
-        on_surface |= reference_piece(&c->placed->shape, k, c->o, &distance, &normal, uv) && fabsl(distance) <= grow;
+        on_surface |=
+            reference_piece(&c->placed->shape, k, c->o, &distance, &normal, uv) && fabsl(distance) <= grow;
     }
     return on_surface;
 }
@@ -268,7 +106,8 @@ static bool acceptable(const Case *c, double t, double ulps)
 {
     const Shape *shape = &c->placed->shape;
     const real grow = ulps * U * c->scale;
-    const bool flat = shape->kind == SHAPE_PLANE || shape->kind == SHAPE_DISK || shape->kind == SHAPE_TRIANGLE;
+    const bool flat =
+        shape->kind == SHAPE_PLANE || shape->kind == SHAPE_DISK || shape->kind == SHAPE_TRIANGLE;
     real slack = 4 * U * fabs(t), sideways = grow;
     if (flat) {
         // What moves a ray sideways moves its hit, and the edges as it sees them, by more than that.
@@ -305,8 +144,8 @@ static void judge_t(const Case *c, const RayTable *table, size_t i, Verdicts *v)
         ulps *= 2;
     if (ulps > ALLOWED_ULPS) {
         if (v->wrong++ < 8)
-            print_message("ray %zu (%a %a %a) (%a %a %a): t %.9g, exact %.9Lg, %g input ulps; scale %g\n", i, (double)ray_number(table,i,0),(double)ray_number(table,i,1),(double)ray_number(table,i,2),(double)ray_number(table,i,3),(double)ray_number(table,i,4),(double)ray_number(table,i,5), t,
-                          c->exact, ulps, c->scale);
+            print_message("ray %zu: t %.9g, exact %.9Lg, %g input ulps; scale %g\n", i, t, c->exact, ulps,
+                          c->scale);
     }
     v->worst_ulps = fmax(v->worst_ulps, ulps);
 }
@@ -320,51 +159,73 @@ static double bend_radius(const Placed *p, real v)
     return fmax(r + (top - r) * (double)v, 1e-9);
 }
 
+// |x|, or that of the nearest other number that is the same place on a closed circle.
+static double wrapped(double x) { return fmin(fabs(x), fmin(fabs(x - 1), fabs(x + 1))); }
+
+// Error of the texture coordinates over what is allowed. Angles count by the length of their arc.
+static double uv_error(const Case *c, const RayTable *table, size_t i, Real3 normal, const real uv[2])
+{
+    const Placed *p = c->placed;
+    const ShapeKind kind = p->shape.kind;
+    const double u = (double)hit_number(table, i, HIT_U) + (double)hit_number(table, i, HIT_U_WHOLE);
+    const double v = (double)hit_number(table, i, HIT_V) + (double)hit_number(table, i, HIT_V_WHOLE);
+    const double off_u = u - (double)uv[0], off_v = v - (double)uv[1];
+    double arc = 1;
+    if (kind == SHAPE_SPHERE)
+        arc = fmax(hypot((double)normal.x, (double)normal.z), 1e-6);
+    if (kind == SHAPE_CONE)
+        arc = fmin(1, bend_radius(p, uv[1]));
+    if (kind == SHAPE_TORUS)
+        arc = 0.02;
+    const double eu = (kind == SHAPE_PLANE ? fabs(off_u) : wrapped(off_u)) * arc;
+    const double ev = kind == SHAPE_TORUS ? wrapped(off_v) * arc : fabs(off_v);
+    return fmax(eu, ev) / (16 * U * (1 + c->scale / p->feature));
+}
+
+// The gradient in space of a distance in the shape's coordinates.
+static Real3 gradient_in_space(const RealMap *inverse, Real3 normal)
+{
+    return real3_add(
+        real3_scale(inverse->row[0], normal.x),
+        real3_add(real3_scale(inverse->row[1], normal.y), real3_scale(inverse->row[2], normal.z)));
+}
+
+static Real3 normal_in_object(const Affine *map, Real3 n)
+{
+    const Vec3 *m = map->row;
+    return real3_normalize((Real3){m[0].x * n.x + m[1].x * n.y + m[2].x * n.z,
+                                   m[0].y * n.x + m[1].y * n.y + m[2].y * n.z,
+                                   m[0].z * n.x + m[1].z * n.y + m[2].z * n.z});
+}
+
+// Judges by the piece of the surface whose normal fits best among those that the point is on.
 static void judge_surface(const Case *c, const RayTable *table, size_t i, Verdicts *v)
 {
     const Placed *p = c->placed;
-    const float *h = table->hits + i;
-    const size_t n = table->capacity;
-    const Real3 at = real3(h[HIT_P * n], h[(HIT_P + 1) * n], h[(HIT_P + 2) * n]);
-    const Vec3 ng = {h[HIT_NG * n], h[(HIT_NG + 1) * n], h[(HIT_NG + 2) * n]};
-    const Real3 q = real_map_point(&p->inverse, at);
-    const Vec3 *m = p->map.row;
-    const Real3 back = real3_normalize((Real3){m[0].x * ng.x + m[1].x * ng.y + m[2].x * ng.z,
-                                               m[0].y * ng.x + m[1].y * ng.y + m[2].y * ng.z,
-                                               m[0].z * ng.x + m[1].z * ng.y + m[2].z * ng.z});
-    const double slack = 16 * U * c->scale;
-    double normal_error = INFINITY, uv_error = INFINITY, distance = INFINITY, widest = 0;
+    const Real3 q = real_map_point(&p->inverse, hit_vector(table, i, HIT_P));
+    const Real3 ng = hit_vector(table, i, HIT_NG), error = hit_vector(table, i, HIT_ERROR);
+    const Real3 back = normal_in_object(&p->map, ng);
+    double normal_error = INFINITY, texture = INFINITY, distance = INFINITY, widest = 0;
     for (int k = 0; k < reference_pieces(&p->shape); ++k) {
         real off, uv[2];
         Real3 normal;
-        if (!reference_piece(&p->shape, k, q, &off, &normal, uv) || fabsl(off) > slack)
+        if (!reference_piece(&p->shape, k, q, &off, &normal, uv) || fabsl(off) > ALLOWED_ULPS * U * c->scale)
             continue;
-        const double bend = bend_radius(p, uv[1]);
-        const double e = (double)real3_length(real3_sub(normal, back)) / (64 * U + 16 * U * c->scale / bend);
+        const double allowed = 64 * U + 16 * U * c->scale / bend_radius(p, uv[1]);
+        const double e = (double)real3_length(real3_sub(normal, back)) / allowed;
         if (e >= normal_error)
             continue;
         normal_error = e;
-        // Distances along the normal in space.
-        const Real3 g = real3_add(real3_scale(p->inverse.row[0], normal.x),
-                                  real3_add(real3_scale(p->inverse.row[1], normal.y),
-                                            real3_scale(p->inverse.row[2], normal.z)));
-        const double to_space = 1 / (double)real3_length(g), rounding = U * c->scale * to_space;
-        const double bound = fabs(ng.x) * h[HIT_ERROR * n] + fabs(ng.y) * h[(HIT_ERROR + 1) * n] +
-                             fabs(ng.z) * h[(HIT_ERROR + 2) * n];
+        texture = uv_error(c, table, i, normal, uv);
+        const double to_space = 1 / (double)real3_length(gradient_in_space(&p->inverse, normal));
+        const double rounding = U * c->scale * to_space;
+        const double bound = (double)(fabsl(ng.x) * error.x + fabsl(ng.y) * error.y + fabsl(ng.z) * error.z);
         // What rounding the shape's own numbers moves is not in the bound: the shape is then another one.
         distance = fmax(0, (double)fabsl(off) * to_space - rounding) / bound;
         widest = bound / rounding;
-        const double du = (double)h[HIT_U * n] + (double)h[HIT_U_WHOLE * n] - (double)uv[0];
-        const double dv = (double)h[HIT_V * n] + (double)h[HIT_V_WHOLE * n] - (double)uv[1];
-        const bool wraps = p->shape.kind != SHAPE_PLANE;
-        const double eu = wraps ? fmin(fabs(du), fmin(fabs(du - 1), fabs(du + 1))) : fabs(du);
-        const double ev = p->shape.kind == SHAPE_TORUS ? fmin(fabs(dv), fmin(fabs(dv - 1), fabs(dv + 1))) : fabs(dv);
-        const double pole = p->shape.kind == SHAPE_SPHERE ? fmax(hypot((double)normal.x, (double)normal.z), 1e-6) :
-                            p->shape.kind == SHAPE_CONE ? fmin(1, bend_radius(p, uv[1])) : p->shape.kind == SHAPE_TORUS ? 0.02 : 1;
-        uv_error = fmax(eu * pole, ev * (p->shape.kind == SHAPE_TORUS ? 0.02 : 1)) / (16 * U + 16 * U * c->scale / p->feature);
     }
     v->worst_normal = fmax(v->worst_normal, normal_error);
-    v->worst_uv = fmax(v->worst_uv, uv_error);
+    v->worst_uv = fmax(v->worst_uv, texture);
     v->worst_bound = fmax(v->worst_bound, distance);
     v->widest_bound = fmax(v->widest_bound, widest);
 }
@@ -373,27 +234,20 @@ static void judge(const Placed *placed, const RayTable *table, Verdicts *v)
 {
     for (size_t i = 0; i < table->count; ++i) {
         const Placed *p = &placed[table->index[i]];
-        Case c = {.placed = p};
-        const Real3 o = real3(ray_number(table, i, RAY_ORG), ray_number(table, i, RAY_ORG + 1),
-                              ray_number(table, i, RAY_ORG + 2));
-        const Real3 d = real3(ray_number(table, i, RAY_DIR), ray_number(table, i, RAY_DIR + 1),
-                              ray_number(table, i, RAY_DIR + 2));
-        c.o = real_map_point(&p->inverse, o);
-        c.d = real_map_direction(&p->inverse, d);
-        const real exact = c.exact = reference_hit(&p->shape, c.o, c.d, 0, 0, 0);
-        const double t = hit_number(table, i, HIT_T);
-        const double along = isinf(t) ? (isinf(exact) ? 0 : (double)exact) : t;
-        c.scale = magnitude(p, table, i, along);
+        const Real3 o = ray_vector(table, i, RAY_ORG), d = ray_vector(table, i, RAY_DIR);
+        Case c = {.placed = p, .o = real_map_point(&p->inverse, o), .d = real_map_direction(&p->inverse, d)};
+        c.exact = reference_hit(&p->shape, c.o, c.d, 0, 0, 0);
+        const double t = hit_number(table, i, HIT_T), exact = (double)c.exact;
+        c.scale = magnitude(p, table, i, isfinite(t) ? t : isfinite(exact) ? exact : 0);
         judge_t(&c, table, i, v);
         if (isinf(t))
             continue;
         ++v->hits;
         judge_surface(&c, table, i, v);
-        const double incidence = fabs((double)(hit_number(table, i, HIT_NG) * ray_number(table, i, RAY_DIR) +
-                                               hit_number(table, i, HIT_NG + 1) * ray_number(table, i, RAY_DIR + 1) +
-                                               hit_number(table, i, HIT_NG + 2) * ray_number(table, i, RAY_DIR + 2)));
-        if (o.x == 0 && o.y == 0 && o.z == 0 && !at_open_rim(&c, t, ALLOWED_ULPS * U * c.scale, false) && incidence > 0.3 * (double)real3_length(d))
-            v->worst_t_ulps = fmax(v->worst_t_ulps, ulps_between((double)exact, (float)t));
+        const bool from_camera = o.x == 0 && o.y == 0 && o.z == 0;
+        const bool steep = fabsl(real3_dot(hit_vector(table, i, HIT_NG), d)) > 0.3L * real3_length(d);
+        if (from_camera && steep && !at_open_rim(&c, t, ALLOWED_ULPS * U * c.scale, false))
+            v->worst_t_ulps = fmax(v->worst_t_ulps, ulps_between(exact, (float)t));
     }
 }
 
@@ -441,6 +295,7 @@ static void shape_family(KernelDevice *device, const Family *family, uint64_t se
     assert_true(v.worst_normal <= 1);
     assert_true(v.worst_uv <= 1);
     assert_true(v.worst_bound <= 1);
+    assert_true(v.widest_bound <= ALLOWED_ULPS);
 }
 
 static void all_shapes(void **state)

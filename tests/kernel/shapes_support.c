@@ -6,22 +6,37 @@
 
 static const char source[] =
     "#include \"shapes/shapes.h\"\n"
+    "static v3 load3(global const float *p, uint n)\n"
+    "{\n"
+    "    return v3_make(VF_LOAD(p), VF_LOAD(p + n), VF_LOAD(p + 2 * n));\n"
+    "}\n"
+    "static void store3(v3 a, global float *p, uint n)\n"
+    "{\n"
+    "    VF_STORE(a.x, p);\n"
+    "    VF_STORE(a.y, p + n);\n"
+    "    VF_STORE(a.z, p + 2 * n);\n"
+    "}\n"
+    "static v3 gather3(global const float *p, vi at)\n"
+    "{\n"
+    "    return v3_make(vf_gather(p, at), vf_gather(p, at + 1), vf_gather(p, at + 2));\n"
+    "}\n"
     "kernel void trace(global const float *primitives, global const int *index, global const float *rays,\n"
     "                  global float *hits, uint n)\n"
     "{\n"
     "    const size_t i = get_global_id(0) * LANES;\n"
     "    const vi at = VI_LOAD(index + i) * 16;\n"
     "    PrimitiveLanes p;\n"
-    "    p.row0 = v3_make(vf_gather(primitives, at), vf_gather(primitives, at + 1), vf_gather(primitives, at + 2));\n"
-    "    p.row1 = v3_make(vf_gather(primitives, at + 4), vf_gather(primitives, at + 5), vf_gather(primitives, at + 6));\n"
-    "    p.row2 = v3_make(vf_gather(primitives, at + 8), vf_gather(primitives, at + 9), vf_gather(primitives, at + 10));\n"
-    "    p.c = v3_make(vf_gather(primitives, at + 3), vf_gather(primitives, at + 7), vf_gather(primitives, at + 11));\n"
+    "    p.row0 = gather3(primitives, at);\n"
+    "    p.row1 = gather3(primitives, at + 4);\n"
+    "    p.row2 = gather3(primitives, at + 8);\n"
+    "    p.c = v3_make(vf_gather(primitives, at + 3), vf_gather(primitives, at + 7),\n"
+    "                  vf_gather(primitives, at + 11));\n"
     "    p.p0 = vf_gather(primitives, at + 12);\n"
     "    p.p1 = vf_gather(primitives, at + 13);\n"
     "    const vi kind = VF_AS_VI(vf_gather(primitives, at + 14));\n"
     "    RayLanes ray;\n"
-    "    ray.org = v3_make(VF_LOAD(rays + i), VF_LOAD(rays + n + i), VF_LOAD(rays + 2 * n + i));\n"
-    "    ray.dir = v3_make(VF_LOAD(rays + 3 * n + i), VF_LOAD(rays + 4 * n + i), VF_LOAD(rays + 5 * n + i));\n"
+    "    ray.org = load3(rays + i, n);\n"
+    "    ray.dir = load3(rays + 3 * n + i, n);\n"
     "    ray.tmin = VF_LOAD(rays + 6 * n + i);\n"
     "    ray.self = VF_LOAD(rays + 7 * n + i) > (vf)(0.0f);\n"
     "    ray.inward = VF_LOAD(rays + 8 * n + i) > (vf)(0.0f);\n"
@@ -38,10 +53,9 @@ static const char source[] =
     "    SurfaceLanes s;\n"
     "    surface_primitive(kind, &p, &ray, t, &s);\n"
     "    VF_STORE(t, hits + i);\n"
-    "    VF_STORE(s.p.x, hits + n + i); VF_STORE(s.p.y, hits + 2 * n + i); VF_STORE(s.p.z, hits + 3 * n + i);\n"
-    "    VF_STORE(s.error.x, hits + 4 * n + i); VF_STORE(s.error.y, hits + 5 * n + i);\n"
-    "    VF_STORE(s.error.z, hits + 6 * n + i);\n"
-    "    VF_STORE(s.ng.x, hits + 7 * n + i); VF_STORE(s.ng.y, hits + 8 * n + i); VF_STORE(s.ng.z, hits + 9 * n + i);\n"
+    "    store3(s.p, hits + n + i, n);\n"
+    "    store3(s.error, hits + 4 * n + i, n);\n"
+    "    store3(s.ng, hits + 7 * n + i, n);\n"
     "    VF_STORE(s.u, hits + 10 * n + i); VF_STORE(s.v, hits + 11 * n + i);\n"
     "    VF_STORE(s.u_whole, hits + 12 * n + i); VF_STORE(s.v_whole, hits + 13 * n + i);\n"
     "#if HAS_TRIANGLE\n"
@@ -52,12 +66,12 @@ static const char source[] =
     "kernel void leave(global const float *hits, global const float *rays, global float *origins, uint n)\n"
     "{\n"
     "    const size_t i = get_global_id(0) * LANES;\n"
-    "    const v3 p = v3_make(VF_LOAD(hits + n + i), VF_LOAD(hits + 2 * n + i), VF_LOAD(hits + 3 * n + i));\n"
-    "    const v3 e = v3_make(VF_LOAD(hits + 4 * n + i), VF_LOAD(hits + 5 * n + i), VF_LOAD(hits + 6 * n + i));\n"
-    "    const v3 g = v3_make(VF_LOAD(hits + 7 * n + i), VF_LOAD(hits + 8 * n + i), VF_LOAD(hits + 9 * n + i));\n"
-    "    const v3 d = v3_make(VF_LOAD(rays + 3 * n + i), VF_LOAD(rays + 4 * n + i), VF_LOAD(rays + 5 * n + i));\n"
+    "    const v3 p = load3(hits + 1 * n + i, n);\n"
+    "    const v3 e = load3(hits + 4 * n + i, n);\n"
+    "    const v3 g = load3(hits + 7 * n + i, n);\n"
+    "    const v3 d = load3(rays + 3 * n + i, n);\n"
     "    const v3 o = offset_origin(p, e, g, d);\n"
-    "    VF_STORE(o.x, origins + i); VF_STORE(o.y, origins + n + i); VF_STORE(o.z, origins + 2 * n + i);\n"
+    "    store3(o, origins + i, n);\n"
     "}\n"
     // How many of the primitives each ray meets.
     "kernel void crossings(global const float *primitives, uint count, global const float *rays,\n"
@@ -65,8 +79,8 @@ static const char source[] =
     "{\n"
     "    const size_t i = get_global_id(0) * LANES;\n"
     "    RayLanes ray;\n"
-    "    ray.org = v3_make(VF_LOAD(rays + i), VF_LOAD(rays + n + i), VF_LOAD(rays + 2 * n + i));\n"
-    "    ray.dir = v3_make(VF_LOAD(rays + 3 * n + i), VF_LOAD(rays + 4 * n + i), VF_LOAD(rays + 5 * n + i));\n"
+    "    ray.org = load3(rays + i, n);\n"
+    "    ray.dir = load3(rays + 3 * n + i, n);\n"
     "    ray.tmin = (vf)(0.0f);\n"
     "    ray.self = ray.inward = (vm)(0);\n"
     "    vf sum = (vf)(0.0f);\n"
@@ -89,11 +103,16 @@ static const struct {
     const char *macro;
     int kind;
 } kinds[] = {
-    {"HAS_SPHERE", PRIMITIVE_SPHERE},           {"HAS_GIANT_SPHERE", PRIMITIVE_GIANT_SPHERE},
-    {"HAS_ELLIPSOID", PRIMITIVE_ELLIPSOID},     {"HAS_PLANE", PRIMITIVE_PLANE},
-    {"HAS_BOX", PRIMITIVE_BOX},                 {"HAS_TETRAHEDRON", PRIMITIVE_TETRAHEDRON},
-    {"HAS_DISK", PRIMITIVE_DISK},               {"HAS_CYLINDER", PRIMITIVE_CYLINDER},
-    {"HAS_CONE", PRIMITIVE_CONE},               {"HAS_TORUS", PRIMITIVE_TORUS},
+    {"HAS_SPHERE", PRIMITIVE_SPHERE},
+    {"HAS_GIANT_SPHERE", PRIMITIVE_GIANT_SPHERE},
+    {"HAS_ELLIPSOID", PRIMITIVE_ELLIPSOID},
+    {"HAS_PLANE", PRIMITIVE_PLANE},
+    {"HAS_BOX", PRIMITIVE_BOX},
+    {"HAS_TETRAHEDRON", PRIMITIVE_TETRAHEDRON},
+    {"HAS_DISK", PRIMITIVE_DISK},
+    {"HAS_CYLINDER", PRIMITIVE_CYLINDER},
+    {"HAS_CONE", PRIMITIVE_CONE},
+    {"HAS_TORUS", PRIMITIVE_TORUS},
     {"HAS_TRIANGLE", PRIMITIVE_TRIANGLE},
 };
 
@@ -125,7 +144,8 @@ void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primit
                    kernel_in(table->rays, RAY_COLUMNS * n * sizeof(float)),
                    kernel_out(table->hits, HIT_COLUMNS * n * sizeof(float)),
                    kernel_value(&n, sizeof n),
-               }, 5);
+               },
+               5);
 }
 
 void shapes_leave(KernelProgram *program, int lanes, RayTable *table)
@@ -141,7 +161,8 @@ void shapes_leave(KernelProgram *program, int lanes, RayTable *table)
                    kernel_in(table->rays, RAY_COLUMNS * n * sizeof(float)),
                    kernel_out(origins, bytes),
                    kernel_value(&n, sizeof n),
-               }, 4);
+               },
+               4);
     memcpy(table->rays, origins, bytes);
     free(origins);
 }
@@ -158,7 +179,8 @@ void shapes_crossings(KernelProgram *program, int lanes, const RayTable *table, 
                    kernel_in(table->rays, RAY_COLUMNS * n * sizeof(float)),
                    kernel_out(met, n * sizeof *met),
                    kernel_value(&n, sizeof n),
-               }, 5);
+               },
+               5);
 }
 
 RayTable ray_table_create(size_t count)
@@ -180,10 +202,7 @@ void ray_table_destroy(RayTable *table)
     *table = (RayTable){0};
 }
 
-void ray_table_clear(RayTable *table)
-{
-    table->count = 0;
-}
+void ray_table_clear(RayTable *table) { table->count = 0; }
 
 bool ray_table_add(RayTable *table, int primitive, const float org[3], const float dir[3])
 {
@@ -226,15 +245,9 @@ double random_unit(uint64_t *state)
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-double random_in(uint64_t *state, double low, double high)
-{
-    return low + (high - low) * random_unit(state);
-}
+double random_in(uint64_t *state, double low, double high) { return low + (high - low) * random_unit(state); }
 
-double random_scale(uint64_t *state, double low, double high)
-{
-    return pow(10, random_in(state, low, high));
-}
+double random_scale(uint64_t *state, double low, double high) { return pow(10, random_in(state, low, high)); }
 
 void random_direction(uint64_t *state, double d[3])
 {
@@ -251,7 +264,4 @@ double ulp_of(double x)
     return (double)nextafterf(f, INFINITY) - (double)f;
 }
 
-double ulps_between(double exact, float x)
-{
-    return fabs((double)x - exact) / ulp_of(exact);
-}
+double ulps_between(double exact, float x) { return fabs((double)x - exact) / ulp_of(exact); }

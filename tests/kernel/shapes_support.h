@@ -9,14 +9,23 @@
 // Rays and answers, one place each, as columns of `capacity` floats; capacity is a multiple of 16.
 typedef struct RayTable {
     size_t capacity, count;
-    float *rays;  // RAY_X columns
-    int *index;   // of the ray's primitive
-    float *hits;  // HIT_X columns
+    float *rays; // RAY_X columns
+    int *index;  // of the ray's primitive
+    float *hits; // HIT_X columns
 } RayTable;
 
 enum { RAY_ORG, RAY_DIR = 3, RAY_TMIN = 6, RAY_SELF, RAY_INWARD, RAY_COLUMNS };
 enum {
-    HIT_T, HIT_P, HIT_ERROR = 4, HIT_NG = 7, HIT_U = 10, HIT_V, HIT_U_WHOLE, HIT_V_WHOLE, HIT_B1, HIT_B2,
+    HIT_T,
+    HIT_P,
+    HIT_ERROR = 4,
+    HIT_NG = 7,
+    HIT_U = 10,
+    HIT_V,
+    HIT_U_WHOLE,
+    HIT_V_WHOLE,
+    HIT_B1,
+    HIT_B2,
     HIT_COLUMNS
 };
 
@@ -32,7 +41,8 @@ float hit_number(const RayTable *table, size_t i, int column);
 // A program with only the given kind (PRIMITIVE_X) present; kind -1: every kind.
 KernelProgram *shapes_program(KernelDevice *device, int kind, int lanes);
 // Fills table->hits. All primitives are of one kind where the program has only one.
-void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primitive *primitives, size_t count);
+void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primitive *primitives,
+                size_t count);
 // Moves the origin of every ray to where a ray in its direction leaves the surface point in table->hits.
 void shapes_leave(KernelProgram *program, int lanes, RayTable *table);
 // How many of the primitives each ray of the table meets; met has table->capacity places.
@@ -49,5 +59,18 @@ double random_scale(uint64_t *state, double low, double high);
 // Distance between two floats in units in the last place of the first.
 double ulps_between(double exact, float x);
 double ulp_of(double x);
+
+typedef struct Answer {
+    const char *name;
+    double exact, ulps; // INFINITY: no hit
+} Answer;
+
+// The primitive of a shape under a translation; a failure fails the test.
+Primitive bake_at(const Shape *shape, Vec3 shift);
+// Adds a ray at the primitive of the same index.
+void ray_table_add_next(RayTable *table, Vec3 org, Vec3 dir);
+// Shoots the rays at lanes 1 and 8, compares with the answers and prints one line each name.
+void expect_answers(KernelDevice *device, int kind, RayTable *table, const Primitive *primitives,
+                    const Answer *answers);
 
 #endif

@@ -1,8 +1,6 @@
-#include "shapes_reference.h"
+#include "shapes_reference_parts.h"
 
 #include <math.h>
-
-static const real PI = 3.14159265358979323846264338327950288L;
 
 Real3 real3(double x, double y, double z) { return (Real3){x, y, z}; }
 Real3 real3_add(Real3 a, Real3 b) { return (Real3){a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -17,17 +15,18 @@ Real3 real3_cross(Real3 a, Real3 b)
     return (Real3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-static Real3 from_vec(Vec3 a) { return (Real3){a.x, a.y, a.z}; }
+Real3 real3_from(Vec3 a) { return (Real3){a.x, a.y, a.z}; }
 
 RealMap real_map_inverse(const Affine *m)
 {
-    const Real3 a = from_vec(m->row[0]), b = from_vec(m->row[1]), c = from_vec(m->row[2]);
+    const Real3 a = real3_from(m->row[0]), b = real3_from(m->row[1]), c = real3_from(m->row[2]);
     const Real3 bc = real3_cross(b, c), ca = real3_cross(c, a), ab = real3_cross(a, b);
     const real inverse = 1 / real3_dot(a, bc);
     return (RealMap){
-        .row = {real3_scale((Real3){bc.x, ca.x, ab.x}, inverse), real3_scale((Real3){bc.y, ca.y, ab.y}, inverse),
+        .row = {real3_scale((Real3){bc.x, ca.x, ab.x}, inverse),
+                real3_scale((Real3){bc.y, ca.y, ab.y}, inverse),
                 real3_scale((Real3){bc.z, ca.z, ab.z}, inverse)},
-        .origin = from_vec(m->translation),
+        .origin = real3_from(m->translation),
     };
 }
 
@@ -92,7 +91,7 @@ static real range_first(Range range, real tmin)
 // Face k of a box: outward normal and offset.
 static void box_face(const Shape *shape, int k, Real3 *normal, real *offset)
 {
-    const Real3 min = from_vec(shape->as.box.min), max = from_vec(shape->as.box.max);
+    const Real3 min = real3_from(shape->as.box.min), max = real3_from(shape->as.box.max);
     const real side = k & 1 ? 1 : -1;
     const Real3 corner = k & 1 ? max : min;
     *normal = k / 2 == 0 ? (Real3){side, 0, 0} : k / 2 == 1 ? (Real3){0, side, 0} : (Real3){0, 0, side};
@@ -100,27 +99,32 @@ static void box_face(const Shape *shape, int k, Real3 *normal, real *offset)
 }
 
 // Vertices of the faces abc, abd, acd, bcd, and the vertex opposite.
-static const int tetrahedron_faces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
+const int tetrahedron_faces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
 
 static void tetrahedron_face(const Shape *shape, int k, Real3 *normal, real *offset)
 {
     const Vec3 *v = shape->as.tetrahedron.vertices;
     const int *f = tetrahedron_faces[k];
-    const Real3 a = from_vec(v[f[0]]), b = from_vec(v[f[1]]), c = from_vec(v[f[2]]), other = from_vec(v[f[3]]);
+    const Real3 a = real3_from(v[f[0]]), b = real3_from(v[f[1]]), c = real3_from(v[f[2]]),
+                other = real3_from(v[f[3]]);
     *normal = real3_normalize(real3_cross(real3_sub(b, a), real3_sub(c, a)));
     if (real3_dot(*normal, real3_sub(other, a)) > 0)
         *normal = real3_scale(*normal, -1);
     *offset = real3_dot(*normal, a);
 }
 
+void polyhedron_face(const Shape *shape, int k, Real3 *normal, real *offset)
+{
+    (shape->kind == SHAPE_BOX ? box_face : tetrahedron_face)(shape, k, normal, offset);
+}
+
 static real polyhedron_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin)
 {
     Range range = {-INFINITY, INFINITY};
-    const bool box = shape->kind == SHAPE_BOX;
-    for (int k = 0; k < (box ? 6 : 4); ++k) {
+    for (int k = 0; k < reference_pieces(shape); ++k) {
         Real3 normal;
         real offset;
-        (box ? box_face : tetrahedron_face)(shape, k, &normal, &offset);
+        polyhedron_face(shape, k, &normal, &offset);
         range_plane(&range, normal, offset + grow, o, d);
     }
     return range_first(range, tmin);
@@ -131,16 +135,16 @@ static real polyhedron_hit(const Shape *shape, Real3 o, Real3 d, real grow, real
 static Real3 triangle_normal(const Shape *shape)
 {
     const Vec3 *v = shape->as.triangle.vertices;
-    const Real3 a = from_vec(v[0]);
-    return real3_normalize(real3_cross(real3_sub(from_vec(v[1]), a), real3_sub(from_vec(v[2]), a)));
+    const Real3 a = real3_from(v[0]);
+    return real3_normalize(real3_cross(real3_sub(real3_from(v[1]), a), real3_sub(real3_from(v[2]), a)));
 }
 
 static bool triangle_contains(const Shape *shape, Real3 p, real grow)
 {
     const Real3 n = triangle_normal(shape);
     for (int i = 0; i < 3; ++i) {
-        const Real3 a = from_vec(shape->as.triangle.vertices[i]);
-        const Real3 b = from_vec(shape->as.triangle.vertices[(i + 1) % 3]);
+        const Real3 a = real3_from(shape->as.triangle.vertices[i]);
+        const Real3 b = real3_from(shape->as.triangle.vertices[(i + 1) % 3]);
         const Real3 inward = real3_normalize(real3_cross(n, real3_sub(b, a)));
         if (real3_dot(inward, real3_sub(p, a)) < -grow)
             return false;
@@ -148,17 +152,17 @@ static bool triangle_contains(const Shape *shape, Real3 p, real grow)
     return true;
 }
 
-static void flat_plane(const Shape *shape, Real3 *normal, Real3 *point)
+void flat_plane(const Shape *shape, Real3 *normal, Real3 *point)
 {
     if (shape->kind == SHAPE_PLANE) {
-        *normal = real3_normalize(from_vec(shape->as.plane.normal));
-        *point = from_vec(shape->as.plane.point);
+        *normal = real3_normalize(real3_from(shape->as.plane.normal));
+        *point = real3_from(shape->as.plane.point);
     } else if (shape->kind == SHAPE_DISK) {
-        *normal = real3_normalize(from_vec(shape->as.disk.normal));
-        *point = from_vec(shape->as.disk.center);
+        *normal = real3_normalize(real3_from(shape->as.disk.normal));
+        *point = real3_from(shape->as.disk.center);
     } else {
         *normal = triangle_normal(shape);
-        *point = from_vec(shape->as.triangle.vertices[0]);
+        *point = real3_from(shape->as.triangle.vertices[0]);
     }
 }
 
@@ -179,18 +183,11 @@ static real flat_first(const Shape *shape, Real3 o, Real3 d, real grow, real tmi
 
 // ---- solids of revolution ---------------------------------------------------------------------
 
-// A cylinder or cone: the radius at distance z along the axis from the base is base_radius + slope z.
-typedef struct Round {
-    Real3 base, axis; // unit, from base to top
-    real height, base_radius, top_radius, slope;
-    bool caps;
-} Round;
-
-static Round round_of(const Shape *shape)
+Round round_of(const Shape *shape)
 {
     const bool cone = shape->kind == SHAPE_CONE;
-    const Real3 base = from_vec(cone ? shape->as.cone.base : shape->as.cylinder.base);
-    const Real3 top = from_vec(cone ? shape->as.cone.top : shape->as.cylinder.top);
+    const Real3 base = real3_from(cone ? shape->as.cone.base : shape->as.cylinder.base);
+    const Real3 top = real3_from(cone ? shape->as.cone.top : shape->as.cylinder.top);
     Round r = {.base = base, .caps = cone ? shape->as.cone.caps : shape->as.cylinder.caps};
     r.height = real3_length(real3_sub(top, base));
     r.axis = real3_scale(real3_sub(top, base), 1 / r.height);
@@ -206,7 +203,8 @@ static real round_hit(const Shape *shape, Real3 o, Real3 d, real grow, real long
     const Real3 f = real3_sub(o, r.base);
     const real oz = real3_dot(f, r.axis), dz = real3_dot(d, r.axis);
     const Real3 ox = real3_sub(f, real3_scale(r.axis, oz)), dx = real3_sub(d, real3_scale(r.axis, dz));
-    const real radius = r.base_radius + r.slope * oz + grow * sqrtl(1 + r.slope * r.slope), rate = r.slope * dz;
+    const real radius = r.base_radius + r.slope * oz + grow * sqrtl(1 + r.slope * r.slope),
+               rate = r.slope * dz;
     real roots[4];
     int count = quadratic(real3_dot(dx, dx) - rate * rate, real3_dot(ox, dx) - radius * rate,
                           real3_dot(ox, ox) - radius * radius, roots);
@@ -259,11 +257,11 @@ static int polynomial_roots(const real *c, int degree, real low, real high, real
 
 static real torus_hit(const Shape *shape, Real3 o, Real3 d, real grow, real tmin)
 {
-    const Real3 axis = real3_normalize(from_vec(shape->as.torus.axis));
+    const Real3 axis = real3_normalize(real3_from(shape->as.torus.axis));
     const real major = shape->as.torus.major, minor = shape->as.torus.minor + grow;
     const real length = real3_length(d), reach = (major + minor) * 1.001L;
     const Real3 u = real3_scale(d, 1 / length);
-    Real3 f = real3_sub(o, from_vec(shape->as.torus.center));
+    Real3 f = real3_sub(o, real3_from(shape->as.torus.center));
     const real shift = -real3_dot(f, u);
     f = real3_add(f, real3_scale(u, shift));
     const real ff = real3_dot(f, f), fu = real3_dot(f, u), chord = reach * reach - ff;
@@ -285,7 +283,7 @@ real reference_hit(const Shape *shape, Real3 o, Real3 d, real grow, real longer,
 {
     switch (shape->kind) {
     case SHAPE_SPHERE: {
-        const Real3 f = real3_sub(o, from_vec(shape->as.sphere.center));
+        const Real3 f = real3_sub(o, real3_from(shape->as.sphere.center));
         const real r = shape->as.sphere.radius + grow;
         real roots[2];
         const int count = quadratic(real3_dot(d, d), real3_dot(f, d), real3_dot(f, f) - r * r, roots);
@@ -307,152 +305,4 @@ real reference_hit(const Shape *shape, Real3 o, Real3 d, real grow, real longer,
         break;
     }
     return INFINITY;
-}
-
-// ---- surfaces ---------------------------------------------------------------------------------
-
-static void tangents(Real3 n, Real3 *t1, Real3 *t2)
-{
-    const Real3 up = fabsl(n.y) > 0.9L ? real3(0, 0, -1) : real3(0, 1, 0);
-    *t1 = real3_normalize(real3_cross(up, n));
-    *t2 = real3_cross(n, *t1);
-}
-
-static real turn(real y, real x)
-{
-    const real a = atan2l(y, x) / (2 * PI);
-    return a < 0 ? a + 1 : a;
-}
-
-int reference_pieces(const Shape *shape)
-{
-    switch (shape->kind) {
-    case SHAPE_BOX:
-        return 6;
-    case SHAPE_TETRAHEDRON:
-        return 4;
-    case SHAPE_CYLINDER:
-    case SHAPE_CONE:
-        return 3;
-    default:
-        return 1;
-    }
-}
-
-static void barycentric(Real3 a, Real3 b, Real3 c, Real3 p, real uv[2])
-{
-    const Real3 n = real3_cross(real3_sub(b, a), real3_sub(c, a));
-    const real nn = real3_dot(n, n);
-    uv[0] = real3_dot(n, real3_cross(real3_sub(p, a), real3_sub(c, a))) / nn;
-    uv[1] = real3_dot(n, real3_cross(real3_sub(b, a), real3_sub(p, a))) / nn;
-}
-
-static bool round_piece(const Shape *shape, int k, Real3 p, real *distance, Real3 *normal, real uv[2])
-{
-    const Round r = round_of(shape);
-    const Real3 f = real3_sub(p, r.base);
-    const real z = real3_dot(f, r.axis);
-    const Real3 out = real3_sub(f, real3_scale(r.axis, z));
-    const real rho = real3_length(out);
-    Real3 t1, t2;
-    if (k == 0) {
-        const real cosine = 1 / sqrtl(1 + r.slope * r.slope);
-        tangents(r.axis, &t1, &t2);
-        *distance = (rho - r.base_radius - r.slope * z) * cosine;
-        *normal = real3_sub(real3_scale(out, cosine / rho), real3_scale(r.axis, r.slope * cosine));
-        uv[0] = turn(real3_dot(f, t2), real3_dot(f, t1));
-        uv[1] = z / r.height;
-        return true;
-    }
-    const real radius = k == 1 ? r.base_radius : r.top_radius;
-    if (!r.caps || radius == 0)
-        return false;
-    *normal = k == 1 ? real3_scale(r.axis, -1) : r.axis;
-    *distance = k == 1 ? -z : z - r.height;
-    tangents(*normal, &t1, &t2);
-    uv[0] = 0.5L + real3_dot(out, t1) / (2 * radius);
-    uv[1] = 0.5L + real3_dot(out, t2) / (2 * radius);
-    return true;
-}
-
-static void flat_piece(const Shape *shape, Real3 p, real *distance, Real3 *normal, real uv[2])
-{
-    Real3 point, t1, t2;
-    flat_plane(shape, normal, &point);
-    const Real3 q = real3_sub(p, point);
-    *distance = real3_dot(q, *normal);
-    tangents(*normal, &t1, &t2);
-    uv[0] = real3_dot(q, t1);
-    uv[1] = real3_dot(q, t2);
-    if (shape->kind == SHAPE_DISK) {
-        uv[0] = 0.5L + uv[0] / (2 * shape->as.disk.radius);
-        uv[1] = 0.5L + uv[1] / (2 * shape->as.disk.radius);
-    }
-    if (shape->kind == SHAPE_TRIANGLE)
-        barycentric(from_vec(shape->as.triangle.vertices[0]), from_vec(shape->as.triangle.vertices[1]),
-                    from_vec(shape->as.triangle.vertices[2]), p, uv);
-}
-
-static void polyhedron_piece(const Shape *shape, int k, Real3 p, real *distance, Real3 *normal, real uv[2])
-{
-    real offset;
-    Real3 t1, t2;
-    if (shape->kind == SHAPE_BOX) {
-        box_face(shape, k, normal, &offset);
-        const Real3 min = from_vec(shape->as.box.min), size = real3_sub(from_vec(shape->as.box.max), min);
-        const Real3 q = real3_sub(p, real3_add(min, real3_scale(size, 0.5L)));
-        tangents(*normal, &t1, &t2);
-        // The tangents are axes, so that their absolute product with the size is the extent.
-        uv[0] = 0.5L + real3_dot(q, t1) / fabsl(real3_dot(size, t1));
-        uv[1] = 0.5L + real3_dot(q, t2) / fabsl(real3_dot(size, t2));
-    } else {
-        const Vec3 *v = shape->as.tetrahedron.vertices;
-        const int *f = tetrahedron_faces[k];
-        tetrahedron_face(shape, k, normal, &offset);
-        barycentric(from_vec(v[f[0]]), from_vec(v[f[1]]), from_vec(v[f[2]]), p, uv);
-    }
-    *distance = real3_dot(p, *normal) - offset;
-}
-
-static void torus_piece(const Shape *shape, Real3 p, real *distance, Real3 *normal, real uv[2])
-{
-    const Real3 axis = real3_normalize(from_vec(shape->as.torus.axis));
-    const Real3 f = real3_sub(p, from_vec(shape->as.torus.center));
-    const real z = real3_dot(f, axis);
-    const Real3 out = real3_sub(f, real3_scale(axis, z));
-    const real rho = real3_length(out);
-    const Real3 from_ring = real3_sub(f, real3_scale(out, shape->as.torus.major / rho));
-    Real3 t1, t2;
-    tangents(axis, &t1, &t2);
-    *distance = real3_length(from_ring) - shape->as.torus.minor;
-    *normal = real3_normalize(from_ring);
-    uv[0] = turn(real3_dot(f, t2), real3_dot(f, t1));
-    uv[1] = turn(z, rho - shape->as.torus.major);
-}
-
-bool reference_piece(const Shape *shape, int k, Real3 p, real *distance, Real3 *normal, real uv[2])
-{
-    switch (shape->kind) {
-    case SHAPE_SPHERE: {
-        const Real3 f = real3_sub(p, from_vec(shape->as.sphere.center));
-        *distance = real3_length(f) - shape->as.sphere.radius;
-        *normal = real3_normalize(f);
-        uv[0] = 0.5L + atan2l(normal->x, normal->z) / (2 * PI);
-        uv[1] = 1 - atan2l(hypotl(normal->x, normal->z), normal->y) / PI;
-        return true;
-    }
-    case SHAPE_BOX:
-    case SHAPE_TETRAHEDRON:
-        polyhedron_piece(shape, k, p, distance, normal, uv);
-        return true;
-    case SHAPE_CYLINDER:
-    case SHAPE_CONE:
-        return round_piece(shape, k, p, distance, normal, uv);
-    case SHAPE_TORUS:
-        torus_piece(shape, p, distance, normal, uv);
-        return true;
-    default:
-        flat_piece(shape, p, distance, normal, uv);
-        return true;
-    }
 }

@@ -1,0 +1,58 @@
+// What the tests of the layout share: the layout of a scene text, and what the arrays say about it.
+#ifndef CLRT_TESTS_LAYOUT_FIXTURE_H
+#define CLRT_TESTS_LAYOUT_FIXTURE_H
+
+#include "scene_parse_fixture.h"
+
+#include <math.h>
+
+#include "layout/layout.h"
+
+static inline Layout *layout_good(const char *text)
+{
+    Parsed parsed = parse_good(text);
+    Error error = {0};
+    Layout *layout = layout_create(parsed.scene, &error);
+    if (!layout)
+        fail_msg("%s\n%s", error.text, text);
+    parsed_end(&parsed);
+    return layout;
+}
+
+// The error of a text that parses but cannot be laid out.
+static inline Error layout_error(const char *text)
+{
+    Parsed parsed = parse_good(text);
+    Error error = {0};
+    assert_null(layout_create(parsed.scene, &error));
+    parsed_end(&parsed);
+    return error;
+}
+
+static inline FeatureSet features_of(const char *text)
+{
+    Layout *layout = layout_good(text);
+    const FeatureSet set = layout->features;
+    layout_destroy(layout);
+    return set;
+}
+
+static inline u32 kind_of(const Primitive *primitive)
+{
+    return primitive->kind & PRIMITIVE_KIND_MASK;
+}
+
+static inline u32 count_kind(const Layout *layout, u32 kind)
+{
+    u32 count = 0;
+    for (u32 i = 0; i < layout->primitive_count; i++)
+        count += kind_of(&layout->primitives[i]) == kind;
+    return count;
+}
+
+static inline u64 order_of(const Layout *layout, u32 i)
+{
+    return (u64)layout->infos[i].order_high << 32 | layout->infos[i].order_low;
+}
+
+#endif
