@@ -11,11 +11,11 @@
 typedef union { int8 v; int s[8]; } Int8;
 typedef union { float8 v; float s[8]; } Float8;
 
-// Numbers of a ray for the box test: reciprocal direction and, as offsets in floats into a node, the planes
-// that the ray meets first.
+// Numbers of a ray for the box test: reciprocal direction and, as offsets in bytes into a node, the planes that
+// the ray meets first.
 typedef struct {
     real inv_x[BATCH], inv_y[BATCH], inv_z[BATCH];
-    int near_x[BATCH], near_y[BATCH], near_z[BATCH];
+    uint near_x[BATCH], near_y[BATCH], near_z[BATCH];
 } BatchSlabs;
 
 typedef struct {
@@ -45,9 +45,9 @@ static inline void prepare_slabs(const BatchRays *rays, BatchSlabs *slabs)
         VF_STORE(x, &slabs->inv_x[first]);
         VF_STORE(y, &slabs->inv_y[first]);
         VF_STORE(z, &slabs->inv_z[first]);
-        VI_STORE(x < (vf)(0.0f) ? (vi)(24) : (vi)(0), &slabs->near_x[first]);
-        VI_STORE(y < (vf)(0.0f) ? (vi)(32) : (vi)(8), &slabs->near_y[first]);
-        VI_STORE(z < (vf)(0.0f) ? (vi)(40) : (vi)(16), &slabs->near_z[first]);
+        VU_STORE(x < (vf)(0.0f) ? (vu)(96u) : (vu)(0u), &slabs->near_x[first]);
+        VU_STORE(y < (vf)(0.0f) ? (vu)(128u) : (vu)(32u), &slabs->near_y[first]);
+        VU_STORE(z < (vf)(0.0f) ? (vu)(160u) : (vu)(64u), &slabs->near_z[first]);
     }
 }
 
@@ -57,23 +57,28 @@ typedef struct {
     Float8 near;
 } ChildHits;
 
+// Eight planes of a node, those that start `offset` bytes into it.
+static inline float8 planes_at(global const BvhNode *node, uint offset)
+{
+    return vload8(0, (global const float *)((global const char *)node + offset));
+}
+
 // One ray at a time against eight boxes: what it costs goes with the number of rays.
 static inline void test_children_by_ray(global const BvhNode *node, const BatchRays *rays,
                                         const BatchSlabs *slabs, const BatchHits *hits, uint mask,
                                         ChildHits *children)
 {
-    global const float *planes = node->lower_x;
     children->mask.v = (int8)(0);
     children->near.v = (float8)(INFINITY);
     for (uint rest = mask; rest; rest &= rest - 1) {
         const int k = lowest_bit(rest);
-        const int x = slabs->near_x[k], y = slabs->near_y[k], z = slabs->near_z[k];
-        const float8 near_x = (vload8(0, planes + x) - rays->org_x[k]) * slabs->inv_x[k];
-        const float8 near_y = (vload8(0, planes + y) - rays->org_y[k]) * slabs->inv_y[k];
-        const float8 near_z = (vload8(0, planes + z) - rays->org_z[k]) * slabs->inv_z[k];
-        const float8 far_x = (vload8(0, planes + 24 - x) - rays->org_x[k]) * slabs->inv_x[k];
-        const float8 far_y = (vload8(0, planes + 40 - y) - rays->org_y[k]) * slabs->inv_y[k];
-        const float8 far_z = (vload8(0, planes + 56 - z) - rays->org_z[k]) * slabs->inv_z[k];
+        const uint x = slabs->near_x[k], y = slabs->near_y[k], z = slabs->near_z[k];
+        const float8 near_x = (planes_at(node, x) - rays->org_x[k]) * slabs->inv_x[k];
+        const float8 near_y = (planes_at(node, y) - rays->org_y[k]) * slabs->inv_y[k];
+        const float8 near_z = (planes_at(node, z) - rays->org_z[k]) * slabs->inv_z[k];
+        const float8 far_x = (planes_at(node, 96 - x) - rays->org_x[k]) * slabs->inv_x[k];
+        const float8 far_y = (planes_at(node, 160 - y) - rays->org_y[k]) * slabs->inv_y[k];
+        const float8 far_z = (planes_at(node, 224 - z) - rays->org_z[k]) * slabs->inv_z[k];
         float8 tnear = (float8)(0.0f), tfar = (float8)(hits->tfar[k]);
         tnear = near_x > tnear ? near_x : tnear;
         tnear = near_y > tnear ? near_y : tnear;
