@@ -108,6 +108,9 @@ static inline vf tmin_after_last(const Hierarchy *scene, const BatchHits *hits, 
                                  int instance)
 {
     LanesF tmin;
+    tmin.v = VF_LOAD(&hits->tmin[first]);
+    if (!vm_any(VI_LOAD(&hits->last_primitive[first]) != (vi)(NO_HIT)))
+        return tmin.v;
     for (int k = 0; k < LANES; k++) {
         const int last = hits->last_primitive[first + k];
         const real t = hits->tmin[first + k];
