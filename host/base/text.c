@@ -129,3 +129,17 @@ bool text_parse_decimal(const char *text, size_t length, f64 *value)
     *value = strtod(text, NULL);
     return true;
 }
+
+const char *text_read_whole(const char *text, u32 *number)
+{
+    if (*text < '0' || *text > '9')
+        return NULL;
+    u64 value = 0;
+    for (; *text >= '0' && *text <= '9'; ++text) {
+        value = value * 10 + (u64)(*text - '0');
+        if (value > UINT32_MAX)
+            return NULL;
+    }
+    *number = (u32)value;
+    return text;
+}

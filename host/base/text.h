@@ -18,4 +18,8 @@ size_t text_find_invalid_utf8(const char *text, size_t length);
 // number; LC_NUMERIC of the calling thread must be that of the "C" locale.
 bool text_parse_decimal(const char *text, size_t length, f64 *value);
 
+// Reads the decimal digits at text, which ends in 0, and returns what follows them; NULL where there are
+// none, or beyond 2^32 - 1.
+const char *text_read_whole(const char *text, u32 *number);
+
 #endif

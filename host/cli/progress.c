@@ -4,19 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "base/clock.h"
 
 enum { LINE_MAX_LENGTH = 128, BAR_MAX = 40, BAR_MIN = 8, DEFAULT_WIDTH = 80 };
 
 static const f64 FIRST_AFTER = 0.5, AGAIN_AFTER = 0.1; // seconds
-
-static f64 seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (f64)now.tv_sec + (f64)now.tv_nsec * 1e-9;
-}
 
 static bool is_terminal(FILE *stream)
 {
@@ -32,14 +26,14 @@ static u32 terminal_width(FILE *stream)
 
 Progress progress_start(FILE *stream, bool quiet)
 {
-    return (Progress){.stream = !quiet && is_terminal(stream) ? stream : NULL, .start = seconds_now()};
+    return (Progress){.stream = !quiet && is_terminal(stream) ? stream : NULL, .start = clock_seconds()};
 }
 
 void progress_update(Progress *progress, f64 done, u64 rays)
 {
     if (!progress->stream)
         return;
-    const f64 now = seconds_now();
+    const f64 now = clock_seconds();
     if (now - progress->start < FIRST_AFTER || now - progress->shown < AGAIN_AFTER)
         return;
     char line[LINE_MAX_LENGTH];

@@ -1,6 +1,5 @@
 #include "cli/table.h"
 
-#include <ctype.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -15,26 +14,11 @@ enum {
     THREADS_MAX = 65536
 };
 
-// Reads decimal digits and returns what follows them; NULL where there are none or beyond 2^32 - 1.
-static const char *read_whole(const char *text, u32 *number)
-{
-    if (!isdigit((unsigned char)*text))
-        return NULL;
-    u64 value = 0;
-    for (; isdigit((unsigned char)*text); text++) {
-        value = value * 10 + (u64)(*text - '0');
-        if (value > UINT32_MAX)
-            return NULL;
-    }
-    *number = (u32)value;
-    return text;
-}
-
 // Reads count whole numbers with the separator between them, and nothing else.
 static bool read_wholes(const char *text, char separator, u32 *numbers, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        text = read_whole(text, &numbers[i]);
+        text = text_read_whole(text, &numbers[i]);
         if (!text || *text != (i + 1 < count ? separator : '\0'))
             return false;
         text++;

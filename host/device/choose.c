@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "device/list.h"
 
 enum { NONE = -1, SEVERAL = -2 };
@@ -62,31 +63,16 @@ static i64 find_default(const DeviceList *list)
     return found;
 }
 
-// Reads a decimal number and returns what follows it, NULL where there is none or where it is too large.
-static const char *read_number(const char *text, u32 *number)
-{
-    if (!isdigit((unsigned char)*text))
-        return NULL;
-    u64 value = 0;
-    for (; isdigit((unsigned char)*text); text++) {
-        value = value * 10 + (u64)(*text - '0');
-        if (value > UINT32_MAX)
-            return NULL;
-    }
-    *number = (u32)value;
-    return text;
-}
-
 // Understands N and P:D; false where spec is neither. A place without a device gives NONE.
 static bool find_place(const DeviceList *list, const char *spec, i64 *found)
 {
     u32 first = 0, second = 0;
-    const char *rest = read_number(spec, &first);
+    const char *rest = text_read_whole(spec, &first);
     if (rest && *rest == '\0') {
         *found = first < list->count ? (i64)first : NONE;
         return true;
     }
-    rest = rest && *rest == ':' ? read_number(rest + 1, &second) : NULL;
+    rest = rest && *rest == ':' ? text_read_whole(rest + 1, &second) : NULL;
     if (!rest || *rest != '\0')
         return false;
     *found = NONE;

@@ -44,7 +44,6 @@ struct Program {
     cl_program program;
     const char *source; // the caller's
     size_t length;
-    char *log;
     f64 build_seconds;
 };
 

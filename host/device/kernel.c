@@ -136,11 +136,6 @@ bool kernel_set_u32(Kernel *kernel, const char *name, u32 value, Error *error)
     return set_argument(kernel, name, sizeof value, &value, error);
 }
 
-bool kernel_set_i32(Kernel *kernel, const char *name, i32 value, Error *error)
-{
-    return set_argument(kernel, name, sizeof value, &value, error);
-}
-
 bool kernel_set_f32(Kernel *kernel, const char *name, f32 value, Error *error)
 {
     return set_argument(kernel, name, sizeof value, &value, error);

@@ -3,16 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "device/internal.h"
-
-static f64 seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (f64)now.tv_sec + (f64)now.tv_nsec * 1e-9;
-}
 
 // The build log, NULL where there is none.
 static char *read_log(const Program *program)
@@ -54,13 +47,15 @@ static bool build(Program *program, const char *options, Error *error)
     if (!all)
         return error_set(error, ERROR_MEMORY, "no memory for the build options");
     snprintf(all, size, FORMAT, options);
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     status = clBuildProgram(program->program, 1, &device->id, all, NULL, NULL);
-    program->build_seconds = seconds_now() - start;
-    program->log = read_log(program);
-    if (status != CL_SUCCESS)
+    program->build_seconds = clock_seconds() - start;
+    if (status != CL_SUCCESS) {
+        char *log = read_log(program);
         status_error(error, status, "clBuildProgram", "%s:\n%s\noptions: %s", device->info.name,
-                     program->log ? first_error(program->log) : "", all);
+                     log ? first_error(log) : "", all);
+        free(log);
+    }
     free(all);
     return status == CL_SUCCESS;
 }
@@ -88,16 +83,10 @@ void program_destroy(Program *program)
         return;
     if (program->program)
         clReleaseProgram(program->program);
-    free(program->log);
     free(program);
 }
 
 f64 program_build_seconds(const Program *program)
 {
     return program->build_seconds;
-}
-
-const char *program_log(const Program *program)
-{
-    return program->log ? program->log : "";
 }

@@ -16,8 +16,6 @@ void program_destroy(Program *program);
 
 // Seconds that program_create spent building.
 f64 program_build_seconds(const Program *program);
-// What the compiler said, warnings for one; "" where it said nothing.
-const char *program_log(const Program *program);
 
 // Returns NULL and sets *error where the program has no such kernel.
 Kernel *kernel_create(Program *program, const char *name, Error *error);
@@ -28,7 +26,6 @@ const char *kernel_name(const Kernel *kernel);
 // are, where the kernel has no such argument or where it is of another size.
 bool kernel_set_buffer(Kernel *kernel, const char *name, const Buffer *buffer, Error *error);
 bool kernel_set_u32(Kernel *kernel, const char *name, u32 value, Error *error);
-bool kernel_set_i32(Kernel *kernel, const char *name, i32 value, Error *error);
 bool kernel_set_f32(Kernel *kernel, const char *name, f32 value, Error *error);
 bool kernel_set_bytes(Kernel *kernel, const char *name, const void *bytes, size_t size, Error *error);
 // Local memory of `bytes` bytes for each work-group.

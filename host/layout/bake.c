@@ -17,11 +17,6 @@ typedef struct Bake {
     BakedBounds *bounds;
 } Bake;
 
-static f64 component(Vec3 a, int i)
-{
-    return i == 0 ? a.x : i == 1 ? a.y : a.z;
-}
-
 static Vec3 vec_absolute(Vec3 a)
 {
     return (Vec3){fabs(a.x), fabs(a.y), fabs(a.z)};
@@ -47,6 +42,11 @@ static Vec3 spread_by(Affine m, Vec3 a)
 static Vec3 transposed_direction(Affine m, Vec3 d)
 {
     return vec_add(vec_scale(m.row[0], d.x), vec_add(vec_scale(m.row[1], d.y), vec_scale(m.row[2], d.z)));
+}
+
+static bool vec_axial(Vec3 a)
+{
+    return (a.x == 0) + (a.y == 0) + (a.z == 0) == 2;
 }
 
 // Length of a row's first two elements: half the extent of the image of the unit circle along an axis.
@@ -178,26 +178,25 @@ static void bake_plane(const Bake *bake, Vec3 point, Vec3 normal)
 
 static void bake_box(const Bake *bake, Vec3 min, Vec3 max)
 {
-    const Vec3 size = vec_sub(max, min);
-    const Affine map = frame(bake, (Vec3){size.x, 0, 0}, (Vec3){0, size.y, 0}, (Vec3){0, 0, size.z}, min);
-    const Affine inverse = affine_inverse(map);
-    Vec3 rows[3];
-    f64 offset[3];
-    u32 flips = 0;
+    const Affine to_space = bake->to_space;
+    const Vec3 low = affine_point(to_space, min), high = affine_point(to_space, max);
+    const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    Vec3 n[3];
+    f64 from[3], to[3];
     for (int i = 0; i < 3; ++i) {
-        const f64 k = component(inverse.translation, i);
-        const bool flip = fabs(1 - k) < fabs(k);
-        rows[i] = flip ? vec_scale(inverse.row[i], -1) : inverse.row[i];
-        offset[i] = flip ? 1 - k : k;
-        flips |= flip ? 1u << i : 0;
+        n[i] = affine_normal(to_space, axes[i]);
+        from[i] = vec_dot(n[i], low);
+        to[i] = fmax(from[i], vec_dot(n[i], high));
     }
     Primitive *out = bake->out;
     out->kind = PRIMITIVE_BOX;
-    set_rows(out, rows, (Vec3){offset[0], offset[1], offset[2]});
-    out->p0 = (f32)flips;
-    const Vec3 half = vec_scale(spread_by(map, (Vec3){1, 1, 1}), 0.5);
-    set_bounds(bake->bounds, affine_point(map, (Vec3){0.5, 0.5, 0.5}), half);
-    pad_bounds(bake->bounds, map, inverse, farthest(bake->bounds));
+    set_rows(out, n, (Vec3){from[0], from[1], from[2]});
+    out->p0 = (f32)to[0];
+    out->p1 = (f32)to[1];
+    out->p2 = (f32)to[2];
+    const Vec3 half = vec_scale(vec_sub(max, min), 0.5);
+    set_bounds(bake->bounds, affine_point(to_space, vec_add(min, half)), spread_by(to_space, half));
+    pad_bounds(bake->bounds, to_space, affine_inverse(to_space), farthest(bake->bounds));
 }
 
 static void bake_tetrahedron(const Bake *bake, const Vec3 vertices[4])
@@ -234,6 +233,9 @@ static void bake_triangle(const Bake *bake, const Vec3 vertices[3])
     out->kind = PRIMITIVE_TRIANGLE;
     set_rows(out, v, n);
     out->p1 = (f32)vec_dot(n, v[0]);
+    // The plane of a triangle across an axis is exact; elsewhere a known plane is worth a little error, since
+    // other shapes in it have the same.
+    out->p0 = vec_axial(n) ? 0 : 0.25f;
     BakedBounds *bounds = bake->bounds;
     bounds->min = vec_smallest(v[0], vec_smallest(v[1], v[2]));
     bounds->max = vec_largest(v[0], vec_largest(v[1], v[2]));
@@ -340,9 +342,18 @@ static bool row_regular(f32x4 row)
     return row_in_range(row) && (row.x != 0 || row.y != 0 || row.z != 0);
 }
 
+// Whether a float holds a box's extent along an axis, or would if the box were here.
+static bool extent_in_range(f32 from, f32 to)
+{
+    return fabsf(from) >= FLT_MIN || fabsf(to) >= FLT_MIN;
+}
+
 static bool primitive_in_range(const Primitive *p)
 {
-    if (!isfinite(p->p0) || !isfinite(p->p1))
+    if (!isfinite(p->p0) || !isfinite(p->p1) || !isfinite(p->p2))
+        return false;
+    if (p->kind == PRIMITIVE_BOX && !(extent_in_range(p->row0.w, p->p0) && extent_in_range(p->row1.w, p->p1) &&
+                                      extent_in_range(p->row2.w, p->p2)))
         return false;
     if (p->kind == PRIMITIVE_TRIANGLE)
         return row_in_range(p->row0) && row_in_range(p->row1) && row_in_range(p->row2);
@@ -355,8 +366,7 @@ bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, Bake
                 Error *error)
 {
     const Bake bake = {.to_space = *to_space, .out = out, .bounds = bounds};
-    const u32 id = out->id;
-    *out = (Primitive){.id = id};
+    *out = (Primitive){.kind = 0};
     switch (shape->kind) {
     case SHAPE_SPHERE:
         bake_sphere(&bake, shape->as.sphere.center, shape->as.sphere.radius);

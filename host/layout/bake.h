@@ -18,7 +18,7 @@ typedef struct BakedBounds {
 
 // The shape under `to_space`, the whole map from the coordinates that the shape is described in (so including
 // shape->transform) to the space of the hierarchy: render space, where the camera is the origin, or the space
-// of an object. Fills all of *out but id. shape->kind must not be SHAPE_MESH. ERROR_SCENE where a number
+// of an object. Fills all of *out. shape->kind must not be SHAPE_MESH. ERROR_SCENE where a number
 // of the result leaves the range of float; the message names neither the shape nor its place.
 bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, BakedBounds *bounds,
                 Error *error);

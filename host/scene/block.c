@@ -131,16 +131,10 @@ static void check_required(Parser *parser, const Block *block)
 bool block_parse(Parser *parser, const BlockType *type, const Token *word, void *target)
 {
     const Token open = parser->token;
-    if (open.kind == TOKEN_OPEN) {
-        parser_advance(parser);
-    } else {
-        char shown[TOKEN_SHOWN_MAX];
-        parser_error(parser, &open, "expected '{', found %s", parser_show(&open, shown));
-        if (open.kind != TOKEN_NAME || !block_has_property(type, &open)) {
-            parser_skip_statement(parser);
-            parser->stray_close_expected = true;
-            return false;
-        }
+    if (!parser_expect_open(parser) && (open.kind != TOKEN_NAME || !block_has_property(type, &open))) {
+        parser_skip_statement(parser);
+        parser->stray_close_expected = true;
+        return false;
     }
     Block block; // its names are not cleared: blocks are many
     block.type = type;

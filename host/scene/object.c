@@ -29,14 +29,9 @@ void object_parse(Parser *parser, const Statement *statement, const Token *word,
         return;
     }
     const Token open = parser->token;
-    if (open.kind == TOKEN_OPEN) {
-        parser_advance(parser);
-    } else {
-        char shown[TOKEN_SHOWN_MAX];
-        parser_error(parser, &open, "expected '{', found %s", parser_show(&open, shown));
-        parser->stray_close_expected = true;
-    }
-    bool goes_on = open.kind == TOKEN_OPEN || statement_begins(parser);
+    const bool opened = parser_expect_open(parser);
+    parser->stray_close_expected = parser->stray_close_expected || !opened;
+    bool goes_on = opened || statement_begins(parser);
     while (goes_on && parser->token.kind != TOKEN_CLOSE && !parser->out_of_memory) {
         if (parser->token.kind == TOKEN_END) {
             parser_error(parser, &open, "this '{' is never closed");

@@ -167,6 +167,18 @@ bool parser_find_defined(Parser *parser, const Names *names, const char *what, i
     return false;
 }
 
+bool parser_expect_open(Parser *parser)
+{
+    const Token open = parser->token;
+    if (open.kind == TOKEN_OPEN) {
+        parser_advance(parser);
+        return true;
+    }
+    char shown[TOKEN_SHOWN_MAX];
+    parser_error(parser, &open, "expected '{', found %s", parser_show(&open, shown));
+    return false;
+}
+
 void parser_skip_braces(Parser *parser)
 {
     u32 depth = 0;

@@ -92,6 +92,9 @@ i32 parser_find_word(const Token *token, const char *const *words);
 // Consumes the name of something in names. Reports one that is not defined, with what ("texture").
 bool parser_find_defined(Parser *parser, const Names *names, const char *what, i32 *index);
 
+// Consumes `{`; reports where another token stands.
+bool parser_expect_open(Parser *parser);
+
 // Consumes `{` and everything up to the `}` that closes it.
 void parser_skip_braces(Parser *parser);
 

@@ -71,6 +71,7 @@ static inline PrimitiveLanes primitive_splat(global const Primitive *p)
     lanes.c = v3_make((vf)(row0.w), (vf)(row1.w), (vf)(row2.w));
     lanes.p0 = (vf)(p->p0);
     lanes.p1 = (vf)(p->p1);
+    lanes.p2 = (vf)(p->p2);
     return lanes;
 }
 

@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
     v3 row0, row1, row2; // rows of A, or vertices of a triangle
     v3 c;                // (row0.w, row1.w, row2.w)
-    vf p0, p1;
+    vf p0, p1, p2;
 } PrimitiveLanes;
 
 #endif

@@ -4,33 +4,35 @@
 
 #include "shapes/plane.h"
 
-// t of the faces q = 0 and q = 1 of a pair; unordered.
+// t of the faces n.p = low and n.p = high of a pair; unordered.
 typedef struct {
-    vf t0, t1;
+    vf low, high;
 } SlabTimes;
 
-static inline SlabTimes slab_times(v3 row, vf c, const RayLanes *ray)
+// By the formula of intersect_plane, so that faces, planes and disks in one plane have the same t. A ray along
+// the faces is between them always or never.
+static inline SlabTimes slab_times(v3 n, vf low, vf high, const RayLanes *ray)
 {
     SlabTimes s;
-    const vf q = plane_distance(row, -c, ray->org);
-    const vf inverse = (vf)(1.0f) / v3_dot(row, ray->dir);
-    const vm parallel = fabs(inverse) == (vf)(INFINITY);
-    const vm inside = (q >= (vf)(0.0f)) & (q <= (vf)(1.0f));
-    s.t0 = parallel ? (inside ? (vf)(-INFINITY) : (vf)(INFINITY)) : -q * inverse;
-    s.t1 = parallel ? (vf)(INFINITY) : (1.0f - q) * inverse;
+    const vf above_low = plane_distance(n, low, ray->org), above_high = plane_distance(n, high, ray->org);
+    const vf rate = v3_dot(n, ray->dir);
+    const vm parallel = rate == (vf)(0.0f);
+    const vm between = (above_low >= (vf)(0.0f)) & (above_high <= (vf)(0.0f));
+    s.low = parallel ? (between ? (vf)(-INFINITY) : (vf)(INFINITY)) : -above_low / rate;
+    s.high = parallel ? (vf)(INFINITY) : -above_high / rate;
     return s;
 }
 
 static inline Interval slab_interval(SlabTimes s)
 {
-    return interval_make(vf_min(s.t0, s.t1), vf_max(s.t0, s.t1));
+    return interval_make(vf_min(s.low, s.high), vf_max(s.low, s.high));
 }
 
 static inline vf intersect_box(const PrimitiveLanes *p, const RayLanes *ray)
 {
-    const Interval x = slab_interval(slab_times(p->row0, p->c.x, ray));
-    const Interval y = slab_interval(slab_times(p->row1, p->c.y, ray));
-    const Interval z = slab_interval(slab_times(p->row2, p->c.z, ray));
+    const Interval x = slab_interval(slab_times(p->row0, p->c.x, p->p0, ray));
+    const Interval y = slab_interval(slab_times(p->row1, p->c.y, p->p1, ray));
+    const Interval z = slab_interval(slab_times(p->row2, p->c.z, p->p2, ray));
     return solid_hit(ray, interval_common(interval_common(x, y), z));
 }
 
@@ -52,34 +54,24 @@ static inline void face_offer(FaceChoice *best, vf t, vf face_t, v3 row, vf offs
     best->face = better ? (vi)(face) : best->face;
 }
 
-// Settles s on the face.
-static inline void surface_face(const FaceChoice *face, const RayLanes *ray, vf t, SurfaceLanes *s)
+static inline void slab_offer(FaceChoice *best, const RayLanes *ray, vf t, v3 n, vf low, vf high, int face)
 {
-    const vf inverse = (vf)(1.0f) / sqrt(v3_dot(face->row, face->row));
-    s->ng = v3_scale(face->row, inverse);
-    s->p = v3_fma(ray->dir, t, ray->org);
-    const vf terms = v3_dot(v3_abs(face->row), v3_abs(s->p)) + fabs(face->offset);
-    surface_settle(s, plane_distance(face->row, face->offset, s->p) * inverse,
-                   4.0f * ROUNDING * terms * inverse);
+    const SlabTimes s = slab_times(n, low, high, ray);
+    face_offer(best, t, s.low, v3_neg(n), -low, face);
+    face_offer(best, t, s.high, n, high, face + 1);
 }
 
 #if HAS_UV
-// q, turned to the object's axes.
-static inline v3 box_object_point(const PrimitiveLanes *p, v3 at)
-{
-    const v3 q = v3_make(plane_distance(p->row0, -p->c.x, at), plane_distance(p->row1, -p->c.y, at),
-                         plane_distance(p->row2, -p->c.z, at));
-    const vi flips = VI_FROM_VF(p->p0);
-    return v3_make((flips & 1) != (vi)(0) ? 1.0f - q.x : q.x, (flips & 2) != (vi)(0) ? 1.0f - q.y : q.y,
-                   (flips & 4) != (vi)(0) ? 1.0f - q.z : q.z);
-}
+// Where a coordinate lies between the faces of a pair, 0 to 1.
+static inline vf slab_share(v3 n, vf low, vf high, v3 at) { return plane_distance(n, low, at) / (high - low); }
 
-// Right and up of somebody who faces the side; face = 2 axis + (1 on the side of q = 1).
+// Right and up of somebody who faces the side; face = 2 axis + (1 on the side that looks along the axis).
 static inline void box_uv(const PrimitiveLanes *p, vi face, SurfaceLanes *s)
 {
-    const v3 q = box_object_point(p, s->p);
+    const v3 q = v3_make(slab_share(p->row0, p->c.x, p->p0, s->p), slab_share(p->row1, p->c.y, p->p1, s->p),
+                         slab_share(p->row2, p->c.z, p->p2, s->p));
     const vi axis = face >> 1;
-    const vm positive = (((VI_FROM_VF(p->p0) >> axis) ^ face) & 1) != (vi)(0);
+    const vm positive = (face & 1) != (vi)(0);
     const vm on_x = axis == (vi)(0), on_y = axis == (vi)(1);
     // The sides of x see z run to the left, the others x to the right; both turned round on negative sides.
     const vf along = on_x ? q.z : q.x;
@@ -90,21 +82,17 @@ static inline void box_uv(const PrimitiveLanes *p, vi face, SurfaceLanes *s)
 
 static inline void surface_box(const PrimitiveLanes *p, const RayLanes *ray, vf t, SurfaceLanes *s)
 {
-    const SlabTimes x = slab_times(p->row0, p->c.x, ray);
-    const SlabTimes y = slab_times(p->row1, p->c.y, ray);
-    const SlabTimes z = slab_times(p->row2, p->c.z, ray);
     FaceChoice best;
     best.miss = (vf)(INFINITY);
     best.row = p->row0;
     best.offset = (vf)(0.0f);
     best.face = (vi)(0);
-    face_offer(&best, t, x.t0, v3_neg(p->row0), p->c.x, 0);
-    face_offer(&best, t, x.t1, p->row0, 1.0f - p->c.x, 1);
-    face_offer(&best, t, y.t0, v3_neg(p->row1), p->c.y, 2);
-    face_offer(&best, t, y.t1, p->row1, 1.0f - p->c.y, 3);
-    face_offer(&best, t, z.t0, v3_neg(p->row2), p->c.z, 4);
-    face_offer(&best, t, z.t1, p->row2, 1.0f - p->c.z, 5);
-    surface_face(&best, ray, t, s);
+    slab_offer(&best, ray, t, p->row0, p->c.x, p->p0, 0);
+    slab_offer(&best, ray, t, p->row1, p->c.y, p->p1, 2);
+    slab_offer(&best, ray, t, p->row2, p->c.z, p->p2, 4);
+    s->p = v3_fma(ray->dir, t, ray->org);
+    s->ng = best.row;
+    surface_flat(s, best.offset);
 #if HAS_UV
     box_uv(p, best.face, s);
 #endif

@@ -41,6 +41,17 @@ static inline void tetrahedron_offer(FaceChoice *best, const RayLanes *ray, vf t
     face_offer(best, t, face_t, v3_neg(row), offset, face);
 }
 
+// Settles s on the face.
+static inline void surface_face(const FaceChoice *face, const RayLanes *ray, vf t, SurfaceLanes *s)
+{
+    const vf inverse = (vf)(1.0f) / sqrt(v3_dot(face->row, face->row));
+    s->ng = v3_scale(face->row, inverse);
+    s->p = v3_fma(ray->dir, t, ray->org);
+    const vf terms = v3_dot(v3_abs(face->row), v3_abs(s->p)) + fabs(face->offset);
+    surface_settle(s, plane_distance(face->row, face->offset, s->p) * inverse,
+                   4.0f * ROUNDING * terms * inverse);
+}
+
 static inline void surface_tetrahedron(const PrimitiveLanes *p, const RayLanes *ray, vf t, SurfaceLanes *s)
 {
     FaceChoice best;

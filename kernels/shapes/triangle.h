@@ -79,10 +79,11 @@ static inline TriangleWeights triangle_weights(const PrimitiveLanes *p, const Ra
     return w;
 }
 
-// t is the mean of the vertices' t, or that of the plane, whichever has the smaller error bound: the first
-// is exact to the size of the triangle, the second to the distances from the origin of the space. Either way
-// the error along the normal stays below what rays are moved off a surface, so that triangles in one plane
-// never shadow each other.
+// t is that of the plane, by the formula of intersect_plane, so that shapes in one plane have the same t, or
+// the mean of the vertices' t where the plane's error bound is several times larger (by p0): the mean is exact
+// to the size of the triangle, the plane to the distances from the origin of the space. Either way the error
+// along the normal stays below what rays are moved off a surface, so that triangles in one plane never shadow
+// each other.
 static inline vf intersect_triangle(const PrimitiveLanes *p, const RayLanes *ray)
 {
     const TriangleWeights w = triangle_weights(p, ray);
@@ -92,7 +93,7 @@ static inline vf intersect_triangle(const PrimitiveLanes *p, const RayLanes *ray
     const v3 n = v3_abs(p->c);
     const vf reach = vf_max(fabs(w.a_z), vf_max(fabs(w.b_z), fabs(w.c_z)));
     const vf spread = v3_dot(n, v3_fma(v3_abs(ray->dir), fabs(mean), v3_abs(ray->org))) + fabs(p->p1);
-    const vf t = reach * fabs(facing) > spread ? plane : mean;
+    const vf t = reach * fabs(facing) >= spread * p->p0 ? plane : mean;
     return flat_hit(ray, t, w.within & (t < (vf)(INFINITY)));
 }
 

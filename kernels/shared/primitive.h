@@ -13,8 +13,8 @@
 //   PLANE        row2.xyz = unit normal n; p0 = n.p on the plane; row0.xyz, row1.xyz = gradients of u and v;
 //                u = row0.p + (row0.w + row1.w), v = row1.p + (row2.w + p1): first term of each sum a whole
 //                number, second one what is missing (less than 1 up to 2^24)
-//   BOX          q = A p + c, 0 <= q_i <= 1; q_i = 0 is the face of its pair that is nearer to the origin of
-//                the space; p0 = 1, 2, 4 added where q_x, q_y, q_z run against the object's axis
+//   BOX          row_i.xyz = unit normals of the three pairs of faces, along the object's axes;
+//                row_i.w <= row_i.p <= p_i: both faces of a pair as offsets, as a plane has its own
 //   TETRAHEDRON  q = A p + c >= 0: the barycentric weights of b, c, d; that of a is
 //                p0 - (row0 + row1 + row2).p >= 0
 //   DISK         row2.xyz = unit normal, p0 = row2.p on the disk; x = row0.(p - c), y = row1.(p - c) along
@@ -27,7 +27,8 @@
 //   TORUS        q = A (p - c), (rho - 1)^2 + q_z^2 = p0^2, rho = |(q_x, q_y)|, p0 = minor / major; x = t1,
 //                y = t2, z = axis
 //   TRIANGLE     row0.xyz, row1.xyz, row2.xyz = vertices; c = the unit geometric normal n (against
-//                (b-a) x (c-a) where a mirroring transform has been baked in), p1 = n.a
+//                (b-a) x (c-a) where a mirroring transform has been baked in), p1 = n.a; p0 = share of the
+//                error bound of the plane's t that counts against it: 0 where n is an axis
 #ifndef CLRT_SHARED_PRIMITIVE_H
 #define CLRT_SHARED_PRIMITIVE_H
 
@@ -53,10 +54,11 @@ typedef struct Primitive {
     f32 p0;
     f32 p1;
     u32 kind; // PRIMITIVE_X
-    u32 id;   // place in the order of definition, unique in the scene's arrays of what shading needs
+    f32 p2;
 } Primitive;
 LAYOUT_SIZE(Primitive, 64);
 LAYOUT_OFFSET(Primitive, p0, 48);
 LAYOUT_OFFSET(Primitive, kind, 56);
+LAYOUT_OFFSET(Primitive, p2, 60);
 
 #endif

@@ -60,6 +60,7 @@ static inline PrimitiveLanes primitive_gather(const Row *row)
     p.c = v3_make(row_real(row, 3), row_real(row, 7), row_real(row, 11));
     p.p0 = row_real(row, 12);
     p.p1 = row_real(row, 13);
+    p.p2 = row_real(row, 15);
     return p;
 }
 

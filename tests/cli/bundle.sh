@@ -16,7 +16,7 @@ fail() {
 cat >kernels/base/types.h <<'END'
 #ifndef TYPES_H
 #define TYPES_H
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 typedef uint u32; // "quoted" \ ??/
 #else
 #include "host/only.h"

@@ -1,4 +1,4 @@
-// UTF-8, decimal numbers, arenas, paths.
+// UTF-8, decimal and whole numbers, arenas, paths, files, the clock.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -148,13 +148,106 @@ static void test_files(void **state)
     arena_destroy(arena);
 }
 
+// From a pipe, whose length nobody knows before its end.
+static void test_standard_input(void **state)
+{
+    (void)state;
+    enum { LENGTH = 50000 };
+    static char written[LENGTH];
+    for (u32 i = 0; i < LENGTH; ++i)
+        written[i] = (char)('a' + i % 23);
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    assert_int_equal(write(ends[1], written, LENGTH), LENGTH); // a pipe holds 64 KiB
+    close(ends[1]);
+    const int before = dup(STDIN_FILENO);
+    assert_true(before >= 0 && dup2(ends[0], STDIN_FILENO) >= 0);
+    close(ends[0]);
+    Arena *arena = arena_create();
+    FileContent content;
+    Error error;
+    const bool read = file_read("-", false, arena, &content, &error);
+    dup2(before, STDIN_FILENO);
+    close(before);
+    assert_true(read);
+    assert_int_equal(content.length, LENGTH);
+    assert_memory_equal(content.text, written, LENGTH);
+    assert_int_equal(content.text[LENGTH], 0);
+    arena_destroy(arena);
+}
+
+static void test_no_files(void **state)
+{
+    (void)state;
+    Arena *arena = arena_create();
+    FileContent content;
+    Error error;
+    assert_false(file_read("/", false, arena, &content, &error));
+    assert_int_equal(error.code, ERROR_IO);
+    assert_string_equal(error.text, "Is a directory");
+    char path[] = "/tmp/clrt-file-XXXXXX";
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    assert_int_equal(ftruncate(descriptor, (off_t)FILE_BYTES_MAX + 1), 0); // a hole: takes no room
+    assert_false(file_read(path, true, arena, &content, &error));
+    assert_int_equal(error.code, ERROR_IO);
+    assert_string_equal(error.text, "larger than 1024 MiB");
+    close(descriptor);
+    remove(path);
+    arena_destroy(arena);
+}
+
+static void test_whole(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        u32 number;
+        const char *rest; // NULL: no number
+    } cases[] = {
+        {"0", 0, ""},           {"007:1", 7, ":1"},      {"4294967295x", UINT32_MAX, "x"},
+        {"4294967296", 0, NULL}, {"99999999999999999999999", 0, NULL},
+        {"", 0, NULL},          {"-1", 0, NULL},         {"+1", 0, NULL},
+        {" 1", 0, NULL},        {"x", 0, NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        u32 number = 12345;
+        const char *rest = text_read_whole(cases[i].text, &number);
+        if (!cases[i].rest) {
+            assert_null(rest);
+            assert_int_equal(number, 12345); // left alone
+        } else {
+            assert_non_null(rest);
+            assert_string_equal(rest, cases[i].rest);
+            assert_int_equal(number, cases[i].number);
+        }
+    }
+}
+
+static void test_clock(void **state)
+{
+    (void)state;
+    const f64 start = clock_seconds();
+    f64 now = start;
+    for (u32 i = 0; i < 1000; ++i) {
+        const f64 next = clock_seconds();
+        assert_true(next >= now);
+        now = next;
+    }
+    nanosleep(&(struct timespec){.tv_nsec = 20 * 1000 * 1000}, NULL);
+    now = clock_seconds() - start;
+    assert_true(now >= 0.02 && now < 20);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_utf8),  cmocka_unit_test(test_decimal),
         cmocka_unit_test(test_decimal_agrees_with_libc),
         cmocka_unit_test(test_arena), cmocka_unit_test(test_paths),
-        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_files), cmocka_unit_test(test_standard_input),
+        cmocka_unit_test(test_no_files), cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_clock),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,7 +48,7 @@ static void boxes(void **state)
 static Primitive triangle_at(Vec3 a, Vec3 b, Vec3 c)
 {
     const Shape s = {.kind = SHAPE_TRIANGLE, .as.triangle = {.vertices = {a, b, c}}};
-    Primitive p = {.id = 0};
+    Primitive p = {.kind = 0};
     BakedBounds bounds;
     Error error;
     const Affine map = affine_identity();

@@ -168,7 +168,7 @@ static void rims_are_tight(void **state)
         const Affine map =
             affine_compose(affine_translate((Vec3){3, -2, 5}),
                            affine_compose(affine_rotate((Vec3){1, 2, 3}, 37), affine_scale((Vec3){2, 1, 3})));
-        Primitive p = {.id = 0};
+        Primitive p = {.kind = 0};
         BakedBounds bounds;
         Error error;
         uint64_t random = k;

@@ -19,6 +19,7 @@ static const char source[] =
     "    p.c = v3_make((vf)(r[3]), (vf)(r[7]), (vf)(r[11]));\n"
     "    p.p0 = (vf)(r[12]);\n"
     "    p.p1 = (vf)(r[13]);\n"
+    "    p.p2 = (vf)(r[15]);\n"
     "    return p;\n"
     "}\n"
     // records: the shape, then the map of its instance. out: t, p, error, ng, object point and normal.
@@ -79,7 +80,7 @@ static void instances_keep_points_and_normals(void **state)
         affine_compose(affine_translate((Vec3){30, -20, 10}),
                        affine_compose(affine_rotate((Vec3){1, 1, 0}, 50), affine_scale((Vec3){2, -0.5, 3})));
     const Affine whole = affine_compose(placed, in_object), back = affine_inverse(whole);
-    Primitive records[2] = {{.id = 0}};
+    Primitive records[2] = {{.kind = 0}};
     BakedBounds bounds;
     ObjectFrame frame;
     Error error;

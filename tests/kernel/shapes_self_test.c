@@ -150,7 +150,7 @@ static void self_case(KernelDevice *device, const SelfCase *c, size_t rays)
     const double s = c->scale;
     const Affine map = affine_compose(affine_translate(c->center), affine_scale((Vec3){s, s, s}));
     const RealMap inverse = real_map_inverse(&map);
-    Primitive p = {.id = 0};
+    Primitive p = {.kind = 0};
     BakedBounds bounds;
     Error error;
     uint64_t random = 11;
@@ -234,7 +234,7 @@ static void torus_sees_itself(void **state)
     const Shape shape = {.kind = SHAPE_TORUS, .as.torus = {{0, 0, 0}, {0, 1, 0}, 0.8, 0.3}};
     const Affine map = affine_translate((Vec3){1, 2, 3});
     const RealMap inverse = real_map_inverse(&map);
-    Primitive p = {.id = 0};
+    Primitive p = {.kind = 0};
     BakedBounds bounds;
     Error error;
     uint64_t random = 21;

@@ -4,7 +4,7 @@
 
 Primitive bake_at(const Shape *shape, Vec3 shift)
 {
-    Primitive p = {.id = 0};
+    Primitive p = {.kind = 0};
     BakedBounds bounds;
     Error error;
     const Affine map = affine_translate(shift);

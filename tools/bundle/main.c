@@ -4,7 +4,7 @@
 //   clrt-bundle ROOT ENTRY OUT.cl         the plain text
 //
 // Include "a/b.h" means ROOT/a/b.h wherever it stands. A file whose include guard is certainly defined by
-// then is left out, and so are the branches of #ifdef __OPENCL_VERSION__ that are the host's.
+// then is left out, and so are the branches of #ifdef __OPENCL_C_VERSION__ that are the host's.
 // Exit status: 0 done, 1 a file is missing or includes itself, 2 usage.
 #include <errno.h>
 #include <stdbool.h>
@@ -34,7 +34,7 @@ typedef struct Bundle {
 
 // The conditions around a line of one file.
 typedef struct Conditions {
-    bool device_only[NESTING_MAX]; // about __OPENCL_VERSION__, so decided here
+    bool device_only[NESTING_MAX]; // about __OPENCL_C_VERSION__, so decided here
     bool dead[NESTING_MAX];        // decided, and the present branch is the host's
     size_t depth;
 } Conditions;
@@ -97,7 +97,7 @@ static size_t open_conditions(const Conditions *conditions, const Source *source
 // Follows #if ... #endif; true where the line itself is decided here and must not reach the compiler.
 static bool follow(Conditions *conditions, const Directive *directive)
 {
-    const bool about_device = strncmp(directive->rest, "__OPENCL_VERSION__", 18) == 0;
+    const bool about_device = strcmp(directive->rest, "__OPENCL_C_VERSION__") == 0;
     const bool by_name = directive_is(directive, "ifdef") || directive_is(directive, "ifndef");
     if (by_name || directive_is(directive, "if")) {
         const bool known = about_device && by_name;
