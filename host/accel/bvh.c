@@ -13,9 +13,14 @@ enum {
     TASK_PRIMITIVES = 4096 // smaller ranges are not worth a task
 };
 
+// A primitive while it is sorted: its box travels with it, so that every pass reads memory in order.
+typedef struct Item {
+    Box box;
+    u32 index; // in the input
+} Item;
+
 typedef struct Build {
-    const Box *boxes;
-    u32 *order;
+    Item *items;
     BinaryNode *nodes;
 } Build;
 
@@ -68,17 +73,25 @@ static f32 bin_scale(f32 low, f32 high)
     return isfinite(scale) && high - low <= FLT_MAX ? scale : 0;
 }
 
-static void try_axis(const Build *build, u32 first, u32 count, int axis, f32 low, f32 scale, Split *best)
+// Bins of the three axes in one pass over the range.
+static void fill_bins(const Build *build, u32 first, u32 count, const f32 low[3], const f32 scale[3],
+                      Bin bins[3][BINS])
 {
-    Bin bins[BINS];
-    for (int i = 0; i < BINS; i++)
-        bins[i] = (Bin){ box_empty(), 0 };
+    for (int axis = 0; axis < 3; axis++)
+        for (int i = 0; i < BINS; i++)
+            bins[axis][i] = (Bin){ box_empty(), 0 };
     for (u32 i = first; i < first + count; i++) {
-        const Box *box = &build->boxes[build->order[i]];
-        Bin *bin = &bins[bin_of(box, axis, low, scale)];
-        box_grow(&bin->box, box);
-        bin->count++;
+        const Box *box = &build->items[i].box;
+        for (int axis = 0; axis < 3; axis++) {
+            Bin *bin = &bins[axis][bin_of(box, axis, low[axis], scale[axis])];
+            box_grow(&bin->box, box);
+            bin->count++;
+        }
     }
+}
+
+static void try_axis(const Bin bins[BINS], u32 count, int axis, Split *best)
+{
     f32 right_cost[BINS];
     Box side = box_empty();
     u32 side_count = 0;
@@ -103,12 +116,12 @@ static u32 partition(Build *build, u32 first, u32 count, Split split, f32 low, f
 {
     u32 i = first, j = first + count;
     while (i < j) {
-        if (bin_of(&build->boxes[build->order[i]], split.axis, low, scale) < split.bin) {
+        if (bin_of(&build->items[i].box, split.axis, low, scale) < split.bin) {
             i++;
         } else {
-            const u32 moved = build->order[i];
-            build->order[i] = build->order[--j];
-            build->order[j] = moved;
+            const Item moved = build->items[i];
+            build->items[i] = build->items[--j];
+            build->items[j] = moved;
         }
     }
     return i - first;
@@ -122,12 +135,15 @@ static u32 split_range(Build *build, u32 first, u32 count, u32 depth, const Box 
     Split best = { -1, 0, INFINITY };
     f32 low[3], scale[3];
     if (depth < SAH_DEPTH) {
+        Bin bins[3][BINS];
         for (int axis = 0; axis < 3; axis++) {
             low[axis] = centroids->min[axis];
             scale[axis] = bin_scale(centroids->min[axis], centroids->max[axis]);
-            if (scale[axis] > 0)
-                try_axis(build, first, count, axis, low[axis], scale[axis], &best);
         }
+        fill_bins(build, first, count, low, scale, bins);
+        for (int axis = 0; axis < 3; axis++)
+            if (scale[axis] > 0)
+                try_axis(bins[axis], count, axis, &best);
     }
     // One step down costs as much as one primitive.
     const f32 area = box_half_area(bounds);
@@ -142,7 +158,7 @@ static void build_range(Build *build, u32 node, u32 first, u32 count, u32 depth)
 {
     Box bounds = box_empty(), centroids = box_empty();
     for (u32 i = first; i < first + count; i++) {
-        const Box *box = &build->boxes[build->order[i]];
+        const Box *box = &build->items[i].box;
         box_grow(&bounds, box);
         for (int axis = 0; axis < 3; axis++) {
             const f32 c = centroid(box, axis);
@@ -161,19 +177,22 @@ static void build_range(Build *build, u32 node, u32 first, u32 count, u32 depth)
 
 bool bvh_build(const Box *boxes, u32 count, u32 first_node, u32 first_primitive, Bvh *bvh, Error *error)
 {
-    Build build = { boxes, malloc(sizeof(u32) * (size_t)count),
-                    malloc(sizeof(BinaryNode) * (2 * (size_t)count - 1)) };
-    Bvh result = { .order = build.order, .count = count };
-    if (!build.order || !build.nodes) {
-        free(build.order);
+    Build build = { malloc(sizeof(Item) * (size_t)count), malloc(sizeof(BinaryNode) * (2 * (size_t)count - 1)) };
+    Bvh result = { .order = malloc(sizeof(u32) * (size_t)count), .count = count };
+    if (!build.items || !build.nodes || !result.order) {
+        free(build.items);
         free(build.nodes);
+        free(result.order);
         return error_set(error, ERROR_MEMORY, "no memory for the hierarchy of %u primitives", count);
     }
     for (u32 i = 0; i < count; i++)
-        build.order[i] = i;
+        build.items[i] = (Item){ boxes[i], i };
 #pragma omp parallel default(none) shared(build, count) if (count >= TASK_PRIMITIVES)
 #pragma omp single
     build_range(&build, 0, 0, count, 0);
+    for (u32 i = 0; i < count; i++)
+        result.order[i] = build.items[i].index;
+    free(build.items);
     const bool ok = bvh_collapse(build.nodes, first_node, first_primitive, &result, error);
     free(build.nodes);
     if (ok)

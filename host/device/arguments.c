@@ -117,7 +117,7 @@ i32 source_argument_names(const char *source, size_t length, const char *kernel_
             depth++;
         } else if (closes || token_is(&token, "]")) {
             depth--;
-        } else if (depth == 0 && is_word(*token.at)) {
+        } else if (depth == 0 && is_word(*token.at) && !token_is(&token, "__attribute__")) {
             last = token;
         }
     }

@@ -1,9 +1,14 @@
-// The line of the progress bar, and that it is silent where it should be.
+// The line of the progress bar, that a terminal gets it, and that it is silent where it should be.
+#define _XOPEN_SOURCE 700 // posix_openpt
+
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -53,12 +58,61 @@ static void is_silent_where_there_is_no_terminal(void **state)
     fclose(file);
 }
 
+// What stands in the terminal's other end, at most size - 1 characters.
+static void read_terminal(int descriptor, char *text, size_t size)
+{
+    const ssize_t length = read(descriptor, text, size - 1);
+    text[length > 0 ? length : 0] = '\0';
+}
+
+static void draws_on_a_terminal(void **state)
+{
+    (void)state;
+    const int master = posix_openpt(O_RDWR | O_NOCTTY);
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0)
+        skip();
+    const struct winsize size = {.ws_row = 24, .ws_col = 51};
+    assert_int_equal(ioctl(master, TIOCSWINSZ, &size), 0);
+    assert_int_equal(fcntl(master, F_SETFL, O_NONBLOCK), 0);
+    FILE *terminal = fopen(ptsname(master), "w");
+    assert_non_null(terminal);
+    setenv("TERM", "xterm", 1);
+    char text[256];
+
+    Progress progress = progress_start(terminal, false);
+    progress_update(&progress, 0.5, 1000); // in the first half second there is nothing to see
+    read_terminal(master, text, sizeof text);
+    assert_string_equal(text, "");
+    progress.start -= 10; // as if it ran for a while
+    progress_update(&progress, 0.5, 1000);
+    read_terminal(master, text, sizeof text);
+    assert_string_equal(text, "\r[=========>        ]  50 %  0.0 Mrays/s  0:10 left\033[K");
+    progress_update(&progress, 0.6, 1000); // too soon for another one
+    read_terminal(master, text, sizeof text);
+    assert_string_equal(text, "");
+    progress_end(&progress);
+    read_terminal(master, text, sizeof text);
+    assert_string_equal(text, "\r\033[K");
+    progress_end(&progress); // there is nothing left to take away
+    read_terminal(master, text, sizeof text);
+    assert_string_equal(text, "");
+
+    Progress quiet = progress_start(terminal, true);
+    assert_null(quiet.stream);
+    setenv("TERM", "dumb", 1);
+    Progress dumb = progress_start(terminal, false);
+    assert_null(dumb.stream);
+    fclose(terminal);
+    close(master);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(says_share_rate_and_time),
         cmocka_unit_test(leaves_out_what_is_unknown_or_has_no_room),
         cmocka_unit_test(is_silent_where_there_is_no_terminal),
+        cmocka_unit_test(draws_on_a_terminal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,6 +51,14 @@ static void passes_over_what_is_no_argument(void **state)
     finds(source, "f_helper", -1, "");
 }
 
+static void passes_over_what_stands_in_brackets(void **state)
+{
+    (void)state;
+    const char *source = "kernel void f(local float sums[2 * (3, 4)], const uint n,\n"
+                         "              float4 m __attribute__((aligned(16)))) {}\n";
+    finds(source, "f", 3, "sums n m ");
+}
+
 static void prefers_the_whole_name(void **state)
 {
     (void)state;
@@ -82,6 +90,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_plain_kernels),
         cmocka_unit_test(passes_over_what_is_no_argument),
+        cmocka_unit_test(passes_over_what_stands_in_brackets),
         cmocka_unit_test(prefers_the_whole_name),
         cmocka_unit_test(counts_beyond_the_room),
         cmocka_unit_test(survives_broken_text),

@@ -226,6 +226,88 @@ static void refuses_what_does_not_fit(void **state)
     }
 }
 
+// A device of the same driver with less memory than it has.
+static void counts_what_is_in_use(void **state)
+{
+    const Fixture *fixture = *state;
+    Error error;
+    DeviceInfo small = fixture->info;
+    small.memory = small.allocation_max = 1 << 20;
+    const DeviceOptions options = {.threads = 0};
+    Device *device = device_open(&small, &options, &error);
+    check(device, &error);
+    assert_null(buffer_create(device, "the film", (1 << 20) + 1, &error));
+    assert_non_null(strstr(error.text, "'the film' of 1.0 MiB"));
+    assert_non_null(strstr(error.text, "allows 1.0 MiB a buffer"));
+    Buffer *most = buffer_create(device, "nodes", 768 << 10, &error);
+    check(most, &error);
+    assert_null(buffer_create(device, "the film", 512 << 10, &error));
+    assert_int_equal(error.code, ERROR_MEMORY);
+    assert_non_null(strstr(error.text, "'the film' of 0.5 MiB: 0.8 MiB of the 1.0 MiB"));
+    assert_int_equal(device_bytes(device), 768 << 10);
+    buffer_destroy(most);
+    Buffer *now = buffer_create(device, "the film", 512 << 10, &error);
+    check(now, &error);
+    buffer_destroy(now);
+    device_close(device);
+}
+
+static void refuses_an_unusable_device(void **state)
+{
+    const Fixture *fixture = *state;
+    Error error;
+    DeviceInfo broken = fixture->info;
+    strcpy(broken.unusable, "its driver has no compiler");
+    const DeviceOptions options = {.threads = 0};
+    assert_null(device_open(&broken, &options, &error));
+    assert_int_equal(error.code, ERROR_DEVICE);
+    assert_non_null(strstr(error.text, "cannot be used: its driver has no compiler"));
+}
+
+static void shows_the_first_error_of_a_long_log(void **state)
+{
+    Fixture *fixture = *state;
+    Error error;
+    char source[16384] = "";
+    size_t used = 0;
+    for (u32 i = 0; i < 150; i++)
+        used += (size_t)snprintf(source + used, sizeof source - used,
+                                 "#warning number %u, which fills the log without being what is wrong\n", i);
+    snprintf(source + used, sizeof source - used,
+             "kernel void f(global float *x)\n{ x[0] = not_declared; }\n");
+    assert_null(program_create(fixture->device, source, strlen(source), "", &error));
+    assert_int_equal(error.code, ERROR_DEVICE);
+    assert_non_null(strstr(error.text, "not_declared"));
+}
+
+// More of them than are remembered before their times are read.
+static void counts_many_launches(void **state)
+{
+    enum { LAUNCHES = 300 };
+    Fixture *fixture = *state;
+    Error error;
+    Buffer *buffer = buffer_create(fixture->device, "numbers", 256, &error);
+    Kernel *kernel = kernel_create(fixture->program, "scale", &error);
+    assert_true(buffer && kernel);
+    assert_string_equal(kernel_name(kernel), "scale");
+    check(buffer_upload(buffer, 256, NULL, 0, &error) && buffer_download(buffer, 256, NULL, 0, &error) &&
+              buffer_fill_u32(buffer, 0, 0x3f800000, 256, &error), &error);
+    check(kernel_set_buffer(kernel, "from", buffer, &error) && kernel_set_buffer(kernel, "to", buffer, &error) &&
+              kernel_set_f32(kernel, "factor", 1.0f, &error) && kernel_set_u32(kernel, "count", 64, &error),
+          &error);
+    for (u32 i = 0; i < LAUNCHES; i++)
+        check(kernel_launch(kernel, 64, 0, &error), &error);
+    assert_int_equal(kernel_launches(kernel), LAUNCHES);
+    assert_true(kernel_seconds(kernel) > 0);
+    const u64 too_many = (u64)kernel_local_max(kernel) * 2;
+    assert_false(kernel_launch(kernel, too_many, too_many, &error));
+    assert_int_equal(error.code, ERROR_DEVICE);
+    assert_non_null(strstr(error.text, "kernel 'scale', "));
+    assert_int_equal(kernel_launches(kernel), LAUNCHES);
+    kernel_destroy(kernel);
+    buffer_destroy(buffer);
+}
+
 static void bounds_the_threads_of_a_cpu(void **state)
 {
     const Fixture *fixture = *state;
@@ -278,6 +360,10 @@ int main(void)
         cmocka_unit_test_prestate_setup_teardown(copies_and_fills_parts, setup, teardown, &fixture),
         cmocka_unit_test_prestate_setup_teardown(wraps_memory_of_the_host, setup, teardown, &fixture),
         cmocka_unit_test_prestate_setup_teardown(refuses_what_does_not_fit, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(shows_the_first_error_of_a_long_log, setup, teardown, &fixture),
+        cmocka_unit_test_prestate_setup_teardown(counts_many_launches, setup, teardown, &fixture),
+        cmocka_unit_test_prestate(counts_what_is_in_use, &fixture),
+        cmocka_unit_test_prestate(refuses_an_unusable_device, &fixture),
         cmocka_unit_test_prestate(bounds_the_threads_of_a_cpu, &fixture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
