@@ -80,9 +80,10 @@ static json_t *seconds_to_json(const RunStats *stats)
 static json_t *bytes_to_json(const RunStats *stats)
 {
     const RenderStats *render = stats->render;
-    return json_pack("{s:I, s:I, s:I, s:I, s:I}", "device_peak", (json_int_t)stats->device_bytes_peak, "scene",
-                     (json_int_t)render->scene_bytes, "state", (json_int_t)render->state_bytes, "film",
-                     (json_int_t)render->film_bytes, "host_peak", (json_int_t)stats_host_bytes_peak());
+    return json_pack("{s:I, s:I, s:I, s:I, s:I}", "device_peak", (json_int_t)stats->device_bytes_peak,
+                     "scene", (json_int_t)render->scene_bytes, "state", (json_int_t)render->state_bytes,
+                     "film", (json_int_t)render->film_bytes, "host_peak",
+                     (json_int_t)stats_host_bytes_peak());
 }
 
 static json_t *to_json(const RunStats *stats)

@@ -59,7 +59,8 @@ static void prints_a_line_a_device(void **state)
     assert_string_equal(text,
                         "0  0:0  GPU  Fast Card\n"
                         "     Some Maker, driver 12.3\n"
-                        "     80 compute units, 24576 MiB of memory, at most 6144 MiB a buffer, exact divide, fp64\n"
+                        "     80 compute units, 24576 MiB of memory, at most 6144 MiB a buffer, "
+                        "exact divide, fp64\n"
                         "1  0:1  other  Old \xFF Card\n"
                         "     Some Maker, driver 1.0\n"
                         "     2 compute units, 512 MiB of memory, at most 128 MiB a buffer, inexact divide\n"

@@ -65,7 +65,7 @@ kernel void search(global const Primitive *primitives, global const PrimitiveInf
         if (pair_count)
             search_all(&scene, pairs, pair_count, &rays, &hits, mask, any_hit, opaque_only);
         else
-            traverse(&scene, &rays, &hits, mask, any_hit, opaque_only);
+            traverse(&scene, &rays, &hits, mask, any_hit, opaque_only, 0);
         for (uint k = 0; k < BATCH; k++) {
             const uint place = step * n + begin + k;
             const int primitive = hits.primitive[k], instance = hits.instance[k];

@@ -152,38 +152,85 @@ static f32 snapped(u64 *seed, f64 range)
 
 static void random_direction(u64 *seed, f64 d[3])
 {
-    f64 length;
+    f64 squared;
     do {
-        length = 0;
+        squared = 0;
         for (int k = 0; k < 3; k++) {
             d[k] = random_in(seed, -1, 1);
-            length += d[k] * d[k];
+            squared += d[k] * d[k];
         }
-    } while (length > 1 || length < 1e-3);
+    } while (squared > 1 || squared < 1e-3);
     for (int k = 0; k < 3; k++)
-        d[k] /= sqrt(length);
+        d[k] /= sqrt(squared);
 }
 
-// From anywhere to anywhere; a quarter along an axis, another one within a coordinate plane; half of the
-// coordinates are halves, as are those of half of the shapes, so that rays run along faces and edges.
-static void make_rays(f32 *rays, i32 *selves, u64 seed)
+// Where the scene stands in render space.
+typedef struct Place {
+    const char *camera;
+    f32 at[3];
+} Place;
+
+static const Place near_place = {"", {0, 0, 0}};
+// So far away that a place is known to 2^-12 only.
+static const Place far_place = {"camera { position -3000 512 1024 look_at 0 0 0 }\n", {3000, -512, -1024}};
+
+// A random point on an edge, a corner or a face of the box of a random leaf of the top-level hierarchy, where the
+// least error of a box shows.
+static void random_box_point(const Layout *layout, u64 *seed, f64 point[3])
+{
+    u32 low = layout->root, high = layout->node_count; // the nodes of the scene come first
+    for (u32 i = 0; i < layout->primitive_count; i++) {
+        u32 root;
+        memcpy(&root, &layout->primitives[i].p0, sizeof root);
+        if ((layout->primitives[i].kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE && root < high)
+            high = root;
+    }
+    for (;;) {
+        const BvhNode *node = &layout->nodes[low + (u32)((high - low) * random_unit(seed))];
+        const int slot = (int)(BVH_WIDTH * random_unit(seed));
+        if (!(node->lower_x[slot] <= node->upper_x[slot]) || node->child[slot] >= 0)
+            continue;
+        const f64 box[2][3] = {{node->lower_x[slot], node->lower_y[slot], node->lower_z[slot]},
+                               {node->upper_x[slot], node->upper_y[slot], node->upper_z[slot]}};
+        for (int k = 0; k < 3; k++) {
+            const f64 share = random_unit(seed);
+            point[k] = share < 0.4 ? box[0][k]
+                       : share < 0.8 ? box[1][k] : box[0][k] + (box[1][k] - box[0][k]) * random_unit(seed);
+        }
+        return;
+    }
+}
+
+static void normalize(f64 d[3])
+{
+    const f64 length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++)
+        d[k] /= length;
+}
+
+// A quarter of the rays goes along an axis, another one within a coordinate plane, half of the rest anywhere and the
+// others to the borders of boxes. Half of the coordinates are halves, as are those of half of the shapes, so that
+// rays run along faces and edges.
+static void make_rays(f32 *rays, i32 *selves, const Layout *layout, const Place *place, u64 seed)
 {
     for (u32 i = 0; i < RAYS; i++) {
-        f64 dir[3];
+        f64 dir[3], target[3];
         random_direction(&seed, dir);
         const int axis = (int)(3 * random_unit(&seed));
-        if (i % 4 == 0) {
-            for (int k = 0; k < 3; k++)
-                dir[k] = k == axis ? (dir[k] < 0 ? -1 : 1) : copysign(0, dir[k]);
-        } else if (i % 4 == 1) {
-            const f64 rest = sqrt(1 - dir[axis] * dir[axis]);
-            for (int k = 0; k < 3; k++)
-                dir[k] = k == axis ? copysign(0, dir[k]) : dir[k] / rest;
+        if (i % 8 < 4)
+            dir[axis] = copysign(0, dir[axis]);
+        if (i % 8 < 2)
+            dir[(axis + 1) % 3] = copysign(0, dir[(axis + 1) % 3]);
+        for (u32 k = 0; k < 3; k++)
+            rays[k * RAYS + i] = place->at[k] + snapped(&seed, 9);
+        if (i % 8 >= 6) {
+            random_box_point(layout, &seed, target);
+            for (u32 k = 0; k < 3; k++)
+                dir[k] = target[k] - (f64)rays[k * RAYS + i];
         }
-        for (u32 k = 0; k < 3; k++) {
-            rays[k * RAYS + i] = snapped(&seed, 9);
+        normalize(dir);
+        for (u32 k = 0; k < 3; k++)
             rays[(3 + k) * RAYS + i] = (f32)dir[k];
-        }
         // Most rays have no end; that of the others is where something may just be.
         rays[6 * RAYS + i] = i % 3 ? INFINITY : (f32)random_in(&seed, 0, 12);
         selves[i] = selves[RAYS + i] = -1;
@@ -313,13 +360,15 @@ static u32 compare_searches(const Devices *d, const Space *s, f32 *rays, const c
     return hits;
 }
 
-static void check_scene(const Devices *d, const char *name, const char *scene, u64 seed)
+static void check_scene(const Devices *d, const char *name, const char *scene, const Place *place, u64 seed)
 {
-    Space s = space_create(d->device, scene);
+    char *placed = text_of("%s%s", place->camera, scene);
+    Space s = space_create(d->device, placed);
+    free(placed);
     f32 *rays = malloc(COLUMNS * RAYS * sizeof *rays);
     i32 *selves = malloc(2 * RAYS * sizeof *selves);
     assert_true(rays && selves);
-    make_rays(rays, selves, seed);
+    make_rays(rays, selves, s.layout, place, seed);
     CHECK(buffer_upload(s.rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error));
     CHECK(buffer_upload(s.selves, 0, selves, 2 * RAYS * sizeof *selves, &error));
     const u32 first = compare_searches(d, &s, rays, name);
@@ -411,7 +460,7 @@ static void test_each_kind(void **state)
         for (u32 i = 0; i < (endless ? 6 : SHAPES); i++)
             append_shape(&scene, kinds[k], &seed);
         text_append(&scene, "box { center 0 0 0 size 0.5 }\n"); // the programs want a hierarchy
-        check_scene(d, kinds[k], scene, 1000 + k);
+        check_scene(d, kinds[k], scene, &near_place, 1000 + k);
         free(scene);
     }
 }
@@ -460,14 +509,16 @@ static void test_all_kinds(void **state)
     char *scene = text_of("%s", head);
     u64 seed = 5;
     append_mixture(&scene, &seed, 120, true);
-    check_scene(*state, "all kinds", scene, 50);
+    check_scene(*state, "all kinds", scene, &near_place, 50);
+    check_scene(*state, "all kinds, far away", scene, &far_place, 51);
     free(scene);
 }
 
 static void test_instances(void **state)
 {
     char *scene = instanced_scene();
-    check_scene(*state, "instances", scene, 60);
+    check_scene(*state, "instances", scene, &near_place, 60);
+    check_scene(*state, "instances, far away", scene, &far_place, 61);
     free(scene);
 }
 
@@ -491,7 +542,7 @@ static void test_first_defined_wins(void **state)
     f32 *rays = malloc(COLUMNS * RAYS * sizeof *rays);
     i32 *selves = malloc(2 * RAYS * sizeof *selves);
     assert_true(rays && selves && end % 2 == 0);
-    make_rays(rays, selves, 80);
+    make_rays(rays, selves, s.layout, &near_place, 80);
     CHECK(buffer_upload(s.rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error));
     CHECK(buffer_upload(s.selves, 0, selves, 2 * RAYS * sizeof *selves, &error));
     compare_searches(d, &s, rays, "everything twice");
