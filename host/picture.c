@@ -2,8 +2,8 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "cli/progress.h"
 #include "cli/stats.h"
 #include "device/device.h"
@@ -30,18 +30,11 @@ typedef struct Picture {
     RunStats stats;
 } Picture;
 
-static f64 seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (f64)now.tv_sec + (f64)now.tv_nsec * 1e-9;
-}
-
 static bool choose_device(Picture *picture, Error *error)
 {
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     picture->devices = device_list_create(error);
-    picture->stats.device_seconds = seconds_now() - start;
+    picture->stats.device_seconds = clock_seconds() - start;
     if (!picture->devices)
         return false;
     const char *spec = picture->options->device, *environment = getenv("CLRT_DEVICE");
@@ -67,7 +60,7 @@ static bool judge_scene(const Picture *picture, Error *error)
 static bool load_scene(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     picture->arena = arena_create();
     picture->diagnostics = diagnostics_create();
     if (!picture->arena || !picture->diagnostics)
@@ -80,25 +73,25 @@ static bool load_scene(Picture *picture, Error *error)
         return false;
     if (sound)
         scene_check_support(picture->scene, picture->diagnostics); // more samples may need what is not there
-    picture->stats.parse_seconds = seconds_now() - start;
+    picture->stats.parse_seconds = clock_seconds() - start;
     return judge_scene(picture, error);
 }
 
 static bool lay_out(Picture *picture, Error *error)
 {
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     picture->layout = layout_create(picture->scene, error);
-    picture->stats.layout_seconds = seconds_now() - start;
+    picture->stats.layout_seconds = clock_seconds() - start;
     return picture->layout != NULL;
 }
 
 static bool open_device(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     const DeviceOptions how = {.threads = options->threads, .profiling = options->stats};
     picture->device = device_open(&picture->devices->devices[picture->device_index], &how, error);
-    picture->stats.device_seconds += seconds_now() - start;
+    picture->stats.device_seconds += clock_seconds() - start;
     if (picture->device && options->verbose)
         fprintf(stderr, "clrt: device %s\n", device_info(picture->device)->name);
     return picture->device != NULL;
@@ -159,7 +152,7 @@ static bool report(Picture *picture, const Render *render, Error *error)
     RunStats *stats = &picture->stats;
     if (!picture->options->stats)
         return true;
-    stats->total_seconds = seconds_now() - picture->start;
+    stats->total_seconds = clock_seconds() - picture->start;
     stats->width = picture->width;
     stats->height = picture->height;
     stats->device_name = device_info(picture->device)->name;
@@ -192,7 +185,7 @@ static bool render_picture(Picture *picture, Error *error)
 
 bool picture_make(const Options *options, Interrupt *interrupt, Error *error)
 {
-    Picture picture = {.options = options, .interrupt = interrupt, .start = seconds_now()};
+    Picture picture = {.options = options, .interrupt = interrupt, .start = clock_seconds()};
     const bool check = options->action == ACTION_CHECK;
     bool ok = (check || choose_device(&picture, error)) && load_scene(&picture, error);
     if (ok && !check)

@@ -4,17 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "layout/place.h"
 #include "layout/records.h"
-
-static f64 seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (f64)now.tv_sec + 1e-9 * (f64)now.tv_nsec;
-}
 
 static bool positive(Vec3 v)
 {
@@ -119,10 +112,10 @@ static bool add_records(Layout *layout, const Scene *scene, Error *error)
 static bool append_hierarchy(Layout *layout, PrimitiveList *list, u32 *root, Error *error)
 {
     Bvh bvh = { .nodes = NULL };
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     if (!bvh_build(list->boxes, list->count, layout->node_count, layout->primitive_count, &bvh, error))
         return false;
-    layout->build_seconds += seconds_now() - start;
+    layout->build_seconds += clock_seconds() - start;
     BvhNode *nodes = realloc(layout->nodes, (layout->node_count + (size_t)bvh.node_count) * sizeof *nodes);
     layout->nodes = nodes ? nodes : layout->nodes;
     const bool ok = nodes && primitive_list_sort(list, bvh.order, error);

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "bundle/bundle.h"
 #include "device/buffer.h"
 #include "device/program.h"
@@ -28,13 +28,6 @@ struct Render {
     u32 samples_a_launch; // adapted to the time that launches take
     RenderStats stats;
 };
-
-static f64 seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (f64)now.tv_sec + 1e-9 * (f64)now.tv_nsec;
-}
 
 size_t render_program_options(FeatureSet features, const DeviceInfo *info, char *text, size_t size)
 {
@@ -133,12 +126,34 @@ static bool build(Render *render, Error *error)
     if (render_program_options(job->layout->features, device_info(job->device), options, sizeof options) >=
         sizeof options)
         return error_set(error, ERROR_DEVICE, "the options of the program are too long");
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     render->program =
         program_create(job->device, clrt_kernel_source, clrt_kernel_source_size, options, error);
     render->kernel = render->program ? kernel_create(render->program, "render_tiles", error) : NULL;
-    render->stats.compile_seconds = seconds_now() - start;
+    render->stats.compile_seconds = clock_seconds() - start;
     return render->kernel != NULL;
+}
+
+// Renders samples up to sample_end - 1 of `rows` rows from band_top on. No rows launch an idle group, so that the
+// driver generates the code.
+static bool launch(Render *render, u32 rows, u32 sample_end, Error *error)
+{
+    const Plan *plan = &render->plan;
+    const u32 tiles = plan_tiles(plan, rows);
+    const u32 groups = tiles < 1 ? 1 : tiles < plan->groups ? tiles : plan->groups;
+    const u64 items = (u64)groups * plan->shape.group;
+    Kernel *kernel = render->kernel;
+    if (!kernel_set_u32(kernel, "band_top", render->band_top, error) ||
+        !kernel_set_u32(kernel, "band_rows", rows, error) ||
+        !kernel_set_u32(kernel, "sample_begin", render->samples_done, error) ||
+        !kernel_set_u32(kernel, "sample_end", sample_end, error) ||
+        !kernel_launch(kernel, items, plan->shape.group, error) ||
+        !buffer_download(render->ray_counts, 0, render->counts, items * RAYS_KINDS * sizeof *render->counts,
+                         error))
+        return false;
+    for (u64 i = 0; i < items * RAYS_KINDS; i++)
+        render->stats.rays[i % RAYS_KINDS] += render->counts[i];
+    return true;
 }
 
 Render *render_create(const RenderJob *job, Error *error)
@@ -155,6 +170,11 @@ Render *render_create(const RenderJob *job, Error *error)
         set_params(render);
         render->samples_a_launch = plan_first_samples(&render->plan); // whole rounds of the slots
         ok = build(render, error) && add_scene(render, error) && add_work_buffers(render, error);
+    }
+    if (ok) {
+        const f64 start = clock_seconds();
+        ok = launch(render, 0, 0, error);
+        render->stats.compile_seconds += clock_seconds() - start;
     }
     if (!ok) {
         render_destroy(render);
@@ -187,26 +207,6 @@ static u32 band_rows_now(const Render *render)
     return left < render->plan.band_rows ? left : render->plan.band_rows;
 }
 
-static bool launch(Render *render, u32 rows, u32 sample_end, Error *error)
-{
-    const Plan *plan = &render->plan;
-    const u32 tiles = plan_tiles(plan, rows);
-    const u32 groups = tiles < plan->groups ? tiles : plan->groups;
-    const u64 items = (u64)groups * plan->shape.group;
-    Kernel *kernel = render->kernel;
-    if (!kernel_set_u32(kernel, "band_top", render->band_top, error) ||
-        !kernel_set_u32(kernel, "band_rows", rows, error) ||
-        !kernel_set_u32(kernel, "sample_begin", render->samples_done, error) ||
-        !kernel_set_u32(kernel, "sample_end", sample_end, error) ||
-        !kernel_launch(kernel, items, plan->shape.group, error) ||
-        !buffer_download(render->ray_counts, 0, render->counts, items * RAYS_KINDS * sizeof *render->counts,
-                         error))
-        return false;
-    for (u64 i = 0; i < items * RAYS_KINDS; i++)
-        render->stats.rays[i % RAYS_KINDS] += render->counts[i];
-    return true;
-}
-
 // Aims at launches of a fifth of a second: short enough to stop between them, long enough to fill the device.
 static void adapt_launch(Render *render, u32 samples, f64 seconds)
 {
@@ -225,10 +225,10 @@ bool render_step(Render *render, RenderRows *rows, Error *error)
     *rows = (RenderRows){ NULL, 0 };
     if (render_finished(render))
         return true;
-    const f64 start = seconds_now();
+    const f64 start = clock_seconds();
     if (!launch(render, band, render->samples_done + now, error))
         return false;
-    const f64 seconds = seconds_now() - start;
+    const f64 seconds = clock_seconds() - start;
     render->stats.launches++;
     render->stats.trace_seconds += seconds;
     adapt_launch(render, now, seconds);

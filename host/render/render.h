@@ -15,8 +15,8 @@ typedef struct RenderJob {
 } RenderJob;
 
 typedef struct RenderStats {
-    f64 compile_seconds; // program and first launch
-    f64 trace_seconds;   // all launches after the first
+    f64 compile_seconds; // building the program, and a first launch of nothing, which generates the code
+    f64 trace_seconds;   // all launches
     u64 rays[4];         // camera, shadow, mirrored, transmitted
     u64 scene_bytes;     // on the device
     u64 state_bytes;

@@ -46,7 +46,7 @@ typedef struct {
     int instance[BATCH]; // index of the INSTANCE primitive of the hit, or NO_HIT
 #endif
 #if HAS_TRANSMITTANCE
-    real tmin[BATCH];          // hits have t > tmin, or t = tmin on a primitive after last_x in the order of ties
+    real tmin[BATCH]; // hits have t > tmin, or t = tmin on a primitive after last_x in the order of ties
     int last_primitive[BATCH]; // surface that the ray has crossed at tmin, or NO_HIT
     int last_instance[BATCH];
 #endif

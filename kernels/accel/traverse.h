@@ -11,8 +11,8 @@
 typedef union { int8 v; int s[8]; } Int8;
 typedef union { float8 v; float s[8]; } Float8;
 
-// Numbers of a ray for the box test: reciprocal direction and, as offsets in bytes into a node, the planes that
-// the ray meets first.
+// Numbers of a ray for the box test: reciprocal direction and, as offsets in bytes into a node, the planes
+// that the ray meets first.
 typedef struct {
     real inv_x[BATCH], inv_y[BATCH], inv_z[BATCH];
     uint near_x[BATCH], near_y[BATCH], near_z[BATCH];
@@ -108,9 +108,12 @@ static inline void test_children_by_box(global const BvhNode *node, const BatchR
             const vf org_x = VF_LOAD(&rays->org_x[first]), inv_x = VF_LOAD(&slabs->inv_x[first]);
             const vf org_y = VF_LOAD(&rays->org_y[first]), inv_y = VF_LOAD(&slabs->inv_y[first]);
             const vf org_z = VF_LOAD(&rays->org_z[first]), inv_z = VF_LOAD(&slabs->inv_z[first]);
-            const vf low_x = (node->lower_x[slot] - org_x) * inv_x, high_x = (node->upper_x[slot] - org_x) * inv_x;
-            const vf low_y = (node->lower_y[slot] - org_y) * inv_y, high_y = (node->upper_y[slot] - org_y) * inv_y;
-            const vf low_z = (node->lower_z[slot] - org_z) * inv_z, high_z = (node->upper_z[slot] - org_z) * inv_z;
+            const vf low_x = (node->lower_x[slot] - org_x) * inv_x;
+            const vf low_y = (node->lower_y[slot] - org_y) * inv_y;
+            const vf low_z = (node->lower_z[slot] - org_z) * inv_z;
+            const vf high_x = (node->upper_x[slot] - org_x) * inv_x;
+            const vf high_y = (node->upper_y[slot] - org_y) * inv_y;
+            const vf high_z = (node->upper_z[slot] - org_z) * inv_z;
             const vm back_x = inv_x < (vf)(0.0f), back_y = inv_y < (vf)(0.0f), back_z = inv_z < (vf)(0.0f);
             vf tnear = vf_max(back_x ? high_x : low_x, (vf)(0.0f));
             vf tfar = vf_min(back_x ? low_x : high_x, VF_LOAD(&hits->tfar[first]));
@@ -161,27 +164,41 @@ OUTLINE void push_children(global const BvhNode *node, const BatchRays *rays, co
     }
 }
 
-// Walks the hierarchy of one object, or of the whole scene where nothing is instanced.
+// Goes down to the next leaf that rays want: false where there is none any more. Places of its primitives are
+// *first .. *end - 1; *wanted: the rays that reach it.
+static inline bool next_leaf(const Hierarchy *scene, const BatchRays *rays, const BatchSlabs *slabs,
+                             const BatchHits *hits, uint alive, Stack *stack, uint *wanted, uint *first,
+                             uint *end)
+{
+    while (stack->size > 0) {
+        const int node = stack->node[--stack->size];
+        *wanted = stack->mask[stack->size] & alive;
+        if (!*wanted)
+            continue;
+        if (node < 0) {
+            const uint leaf = ~(uint)node;
+            *first = leaf >> 4;
+            *end = *first + (leaf & 15u);
+            return true;
+        }
+        push_children(&scene->nodes[node], rays, slabs, hits, *wanted, stack);
+    }
+    return false;
+}
+
+// Walks the hierarchy of one object, or of the whole scene where nothing is instanced. Returns the rays that
+// hit, where any hit will do.
 static inline uint traverse_object(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
                                    int root, int instance, const bool any_hit, const bool opaque_only)
 {
     BatchSlabs slabs;
     Stack stack;
-    uint alive = mask;
+    uint alive = mask, wanted, first, end;
     prepare_slabs(rays, &slabs);
     stack.size = 0;
     push_children(&scene->nodes[root], rays, &slabs, hits, mask, &stack);
-    while (stack.size > 0) {
-        const int node = stack.node[--stack.size];
-        const uint wanted = stack.mask[stack.size] & alive;
-        if (!wanted)
-            continue;
-        if (node >= 0) {
-            push_children(&scene->nodes[node], rays, &slabs, hits, wanted, &stack);
-            continue;
-        }
-        const uint leaf = ~(uint)node;
-        for (uint i = leaf >> 4; i < (leaf >> 4) + (leaf & 15u); i++) {
+    while (next_leaf(scene, rays, &slabs, hits, alive, &stack, &wanted, &first, &end)) {
+        for (uint i = first; i < end; i++) {
             if (opaque_only && !(scene->primitives[i].kind & PRIMITIVE_OPAQUE))
                 continue;
             const uint found = test_primitive(scene, rays, hits, wanted & alive, (int)i, instance);
@@ -220,33 +237,21 @@ static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays,
     BatchSlabs slabs;
     BatchRays inner;
     Stack stack;
-    uint alive = mask;
+    uint alive = mask, wanted, first, end;
     prepare_slabs(rays, &slabs);
     stack.size = 0;
     push_children(&scene->nodes[scene->root], rays, &slabs, hits, mask, &stack);
-    while (stack.size > 0) {
-        const int node = stack.node[--stack.size];
-        const uint wanted = stack.mask[stack.size] & alive;
-        if (!wanted)
-            continue;
-        if (node >= 0) {
-            push_children(&scene->nodes[node], rays, &slabs, hits, wanted, &stack);
-            continue;
-        }
-        const uint leaf = ~(uint)node;
-        for (uint i = leaf >> 4; i < (leaf >> 4) + (leaf & 15u); i++) {
+    while (next_leaf(scene, rays, &slabs, hits, alive, &stack, &wanted, &first, &end)) {
+        for (uint i = first; i < end && (wanted & alive); i++) {
             global const Primitive *p = &scene->primitives[i];
-            const uint left = wanted & alive;
             uint found = 0;
-            if (!left)
-                break;
             if ((p->kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE) {
                 const PrimitiveLanes map = primitive_splat(p);
-                enter_instance(&map, rays, left, &inner);
-                found = traverse_object(scene, &inner, hits, left, as_int(p->p0), (int)i, any_hit,
+                enter_instance(&map, rays, wanted & alive, &inner);
+                found = traverse_object(scene, &inner, hits, wanted & alive, as_int(p->p0), (int)i, any_hit,
                                         opaque_only);
             } else if (!opaque_only || (p->kind & PRIMITIVE_OPAQUE)) {
-                found = test_primitive(scene, rays, hits, left, (int)i, NO_HIT);
+                found = test_primitive(scene, rays, hits, wanted & alive, (int)i, NO_HIT);
             }
             if (any_hit)
                 alive &= ~found;

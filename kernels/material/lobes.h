@@ -20,7 +20,8 @@ static inline vf lobe_power(vf versine, vf exponent)
     const vf high = vf_max((vf)(1.0f) - versine, (vf)(0.0f));
     const vf low = (1.0f - high) - versine;
     const vf z = high > (vf)(0.5f) ? exponent * low / high : (vf)(0.0f);
-    return vf_pow(high, exponent) * fma(z, fma(z, fma(z, (vf)(1.0f / 6.0f), (vf)(0.5f)), (vf)(1.0f)), (vf)(1.0f));
+    const vf cubic = fma(z, (vf)(1.0f / 6.0f), (vf)(0.5f));
+    return vf_pow(high, exponent) * fma(z, fma(z, cubic, (vf)(1.0f)), (vf)(1.0f));
 }
 
 // 1 - cos of the angle between two unit vectors: half the square of their difference.

@@ -46,8 +46,8 @@ LAYOUT_SIZE(TextureRecord, 48);
 
 #define NO_INDEX 0xffffffffu
 
-// Beside each primitive, at the same index. The place of a hit in the order of definition, which decides ties,
-// is the order of its primitive, plus that of its instance if it has one.
+// Beside each primitive, at the same index. The place of a hit in the order of definition, which decides
+// ties, is the order of its primitive, plus that of its instance if it has one.
 typedef struct PrimitiveInfo {
     u32 material; // index; NO_INDEX: that of the instance
     u32 extra;    // triangle with normals or uvs: index of a TriangleExtra; else NO_INDEX

@@ -4,9 +4,9 @@
 
 #include "shared/types.h"
 
-// A work-group renders one tile at a time with this many slots. A tile is a square of TILE_SIDE pixels with one
-// slot each or, where there are samples enough, of half or a quarter of that with 4 or 16 slots a pixel, one for
-// each of as many consecutive samples: rays of one pixel stay together longest.
+// A work-group renders one tile at a time with this many slots. A tile is a square of TILE_SIDE pixels with
+// one slot each or, where there are samples enough, of half or a quarter of that with 4 or 16 slots a pixel,
+// one for each of as many consecutive samples: rays of one pixel stay together longest.
 #define TILE_SIDE 16
 #define TILE_SLOTS (TILE_SIDE * TILE_SIDE)
 

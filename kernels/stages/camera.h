@@ -14,13 +14,13 @@ static inline vi even_bits(vi x)
     return (x & 1) | (x >> 1 & 2) | (x >> 2 & 4) | (x >> 3 & 8);
 }
 
-// The slots of a pixel follow each other, pixels of a tile follow the Morton curve: what is worked on together
-// is compact.
+// The slots of a pixel follow each other, pixels of a tile follow the Morton curve: what is worked on
+// together is compact.
 static inline vi slot_x(vi slot, uint slots_log2) { return even_bits(slot >> slots_log2); }
 static inline vi slot_y(vi slot, uint slots_log2) { return even_bits(slot >> slots_log2 >> 1); }
 
-// Starts in the valid slots the sample number sample_begin + (number of the slot within its pixel). left, top:
-// the tile's first pixel in the image.
+// Starts in the valid slots the sample number sample_begin + (number of the slot within its pixel). left and
+// top: the tile's first pixel in the image.
 // Offsets count from the middle of the image in pixels, whole and fraction apart: the whole part is exact
 // and each coordinate is rounded once, at any width.
 OUTLINE void camera_ray(const State *s, constant RenderParams *params, int left, int top, const Slots *slots,

@@ -12,7 +12,10 @@ typedef struct {
 } Tile;
 
 // The scalar forms of slot_x and slot_y.
-static inline uint pixel_x(uint pixel) { return (pixel & 1) | (pixel >> 1 & 2) | (pixel >> 2 & 4) | (pixel >> 3 & 8); }
+static inline uint pixel_x(uint pixel)
+{
+    return (pixel & 1) | (pixel >> 1 & 2) | (pixel >> 2 & 4) | (pixel >> 3 & 8);
+}
 static inline uint pixel_y(uint pixel) { return pixel_x(pixel >> 1); }
 
 // Adds value to the unevaluated sum high + low without losing what the addition rounds away (Knuth's two-sum;

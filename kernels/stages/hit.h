@@ -77,7 +77,8 @@ OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, const Sur
 {
     const Row row = row_make(shading->extras, has ? extra : (vi)(0), EXTRA_NUMBERS);
     const vf b1 = surface->b1, b2 = surface->b2, b0 = (1.0f - b1) - b2;
-    const v3 n = v3_fma(row_real3(&row, 6), b2, v3_fma(row_real3(&row, 3), b1, v3_scale(row_real3(&row, 0), b0)));
+    const v3 n01 = v3_fma(row_real3(&row, 3), b1, v3_scale(row_real3(&row, 0), b0));
+    const v3 n = v3_fma(row_real3(&row, 6), b2, n01);
     *normal = v3_select(has & (row_int(&row, 15) != (vi)(0)), n, *normal);
 #if HAS_UV
     const vf u = fma(row_real(&row, 13), b2, fma(row_real(&row, 11), b1, row_real(&row, 9) * b0));
@@ -88,9 +89,50 @@ OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, const Sur
 }
 #endif
 
+#if HAS_INSTANCES
+// The instances of the lanes; those without one stand in for the first of the list.
+typedef struct {
+    vm placed;
+    PrimitiveLanes map;
+    vi material;
+} Placement;
+
+static inline Placement placement_make(const Hierarchy *scene, vi instance)
+{
+    Placement p;
+    p.placed = instance >= (vi)(0);
+    const vi index = p.placed ? instance : (vi)(0);
+    const Row map = row_make(scene->primitives, index, PRIMITIVE_NUMBERS);
+    const Row info = row_make(scene->infos, index, INFO_NUMBERS);
+    p.map = primitive_gather(&map);
+    p.material = row_int(&info, 0);
+    return p;
+}
+
+// The ray in the space of the object, in the lanes that have one.
+static inline void placement_enter(const Placement *p, RayLanes *ray)
+{
+    const v3 from = v3_sub(ray->org, p->map.c), dir = ray->dir;
+    const v3 org = v3_make(v3_dot(p->map.row0, from), v3_dot(p->map.row1, from), v3_dot(p->map.row2, from));
+    const v3 turned = v3_make(v3_dot(p->map.row0, dir), v3_dot(p->map.row1, dir), v3_dot(p->map.row2, dir));
+    ray->org = v3_select(p->placed, org, ray->org);
+    ray->dir = v3_select(p->placed, turned, ray->dir);
+}
+
+// Carries the surface back out.
+static inline void placement_leave(const Placement *p, v3 org, v3 dir, vf t, SurfaceLanes *surface)
+{
+    SurfaceLanes outside = *surface;
+    surface_place(&p->map, org, dir, t, &outside);
+    surface->p = v3_select(p->placed, outside.p, surface->p);
+    surface->error = v3_select(p->placed, outside.error, surface->error);
+    surface->ng = v3_select(p->placed, outside.ng, surface->ng);
+}
+#endif
+
 // The surface at distance t along the rays of the lanes. Lanes without a hit give numbers without meaning.
 OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 dir, vf t, vi primitive,
-                           vi instance)
+                     vi instance)
 {
     Hit hit;
     SurfaceLanes surface;
@@ -107,20 +149,11 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     const PrimitiveLanes shape = primitive_gather(&record);
     vi material = row_int(&info, 0);
 #if HAS_INSTANCES
-    const vm instanced = instance >= (vi)(0);
-    const vi placed = instanced ? instance : (vi)(0);
-    const Row map_row = row_make(scene->primitives, placed, PRIMITIVE_NUMBERS);
-    const PrimitiveLanes map = primitive_gather(&map_row);
-    const v3 from = v3_sub(org, map.c);
-    const v3 local_org = v3_make(v3_dot(map.row0, from), v3_dot(map.row1, from), v3_dot(map.row2, from));
-    const v3 local_dir = v3_make(v3_dot(map.row0, dir), v3_dot(map.row1, dir), v3_dot(map.row2, dir));
-    ray.org = v3_select(instanced, local_org, org);
-    ray.dir = v3_select(instanced, local_dir, dir);
-    const Row placed_info = row_make(scene->infos, placed, INFO_NUMBERS);
-    material = (instanced & (material < (vi)(0))) ? row_int(&placed_info, 0) : material;
+    const Placement placement = placement_make(scene, instance);
+    placement_enter(&placement, &ray);
+    material = (placement.placed & (material < (vi)(0))) ? placement.material : material;
 #endif
-    const vi kind = row_int(&record, 14) & (int)PRIMITIVE_KIND_MASK;
-    surface_primitive(kind, &shape, &ray, t, &surface);
+    surface_primitive(row_int(&record, 14) & (int)PRIMITIVE_KIND_MASK, &shape, &ray, t, &surface);
 #if HAS_UV
     hit.u = surface.u;
     hit.v = surface.v;
@@ -130,21 +163,16 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
 #if HAS_TRIANGLE_EXTRA
     v3 normal = surface.ng;
     const vi extra = row_int(&info, 1);
-    const vm has_extra = extra >= (vi)(0);
-    if (vm_any(has_extra))
-        hit_interpolate(shading, extra, has_extra, &surface, &normal, &hit);
+    if (vm_any(extra >= (vi)(0)))
+        hit_interpolate(shading, extra, extra >= (vi)(0), &surface, &normal, &hit);
 #endif
 #if HAS_CHECKER3D
     hit.object = object_point(shading->frames, hit.primitive, surface.p, surface.ng);
 #endif
 #if HAS_INSTANCES
-    SurfaceLanes outside = surface;
-    surface_place(&map, org, dir, t, &outside);
-    surface.p = v3_select(instanced, outside.p, surface.p);
-    surface.error = v3_select(instanced, outside.error, surface.error);
-    surface.ng = v3_select(instanced, outside.ng, surface.ng);
+    placement_leave(&placement, org, dir, t, &surface);
 #if HAS_TRIANGLE_EXTRA
-    normal = v3_select(instanced, carry_normal(&map, normal), normal);
+    normal = v3_select(placement.placed, carry_normal(&placement.map, normal), normal);
 #endif
 #endif
     hit.point = surface.p;

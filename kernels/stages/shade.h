@@ -1,5 +1,5 @@
-// Stage: shade_hits. For each ray of the queue: what it brings at once (background, emission, ambient), shadow
-// rays towards the lights of this pass, and the rays that follow it.
+// Stage: shade_hits. For each ray of the queue: what it brings at once (background, emission, ambient),
+// shadow rays towards the lights of this pass, and the rays that follow it.
 #ifndef CLRT_KERNELS_STAGES_SHADE_H
 #define CLRT_KERNELS_STAGES_SHADE_H
 
@@ -144,7 +144,8 @@ OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *s
 #if HAS_SHADOWS
                 const vi self = hit.primitive * 2 + (hit.inside ? (vi)(1) : (vi)(0));
                 state_store_int(s, SHADOW_SELF, &slots, self, shaded);
-                state_store3(s, SHADOW_ORG, &slots, offset_origin(hit.point, hit.error, hit.ng, hit.ng), shaded);
+                const v3 shadow_org = offset_origin(hit.point, hit.error, hit.ng, hit.ng);
+                state_store3(s, SHADOW_ORG, &slots, shadow_org, shaded);
 #endif
             }
 #if HAS_LIGHTS

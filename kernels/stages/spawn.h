@@ -70,7 +70,8 @@ static inline NextRay next_ray(const Hit *hit, v3 dir, v3 weight, v3 throughput,
     return next;
 }
 
-static inline void store_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance, vm m)
+static inline void store_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance,
+                             vm m)
 {
     state_store3(s, RAY_ORG, slots, ray->org, m);
     state_store3(s, RAY_DIR, slots, ray->dir, m);
@@ -136,7 +137,8 @@ OUTLINE void unpark_ray(const State *s, const Slots *slots, vm m)
 }
 #endif
 
-// Puts the first of the rays that follow in flight and parks the second; returns FLAG_NEXT where there is one.
+// Puts the first of the rays that follow in flight and parks the second; returns FLAG_NEXT where there is
+// one.
 OUTLINE vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, constant RenderParams *params,
                             v3 throughput, vi instance, vm shaded, uint *rays)
 {

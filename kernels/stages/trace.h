@@ -107,8 +107,8 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
 }
 #endif
 
-// Traces the shadow rays of a batch of slots towards light number `light` of the pass, those of mask, and adds
-// what arrives to the radiance of the batch.
+// Traces the shadow rays of a batch of slots towards light number `light` of the pass, those of mask, and
+// adds what arrives to the radiance of the batch.
 static inline void shadow_batch(const State *s, const Hierarchy *scene,
                                 global const MaterialRecord *materials, uint light, uint begin, uint count,
                                 uint mask, uint planes_out, BatchRays *rays, BatchHits *hits, real *radiance)
@@ -178,8 +178,8 @@ OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global con
                 mask |= vm_bits((VI_LOAD(&flags[k]) & (vi)(1 << light)) != (vi)(0)) << k;
             *traced += popcount(mask);
             if (mask)
-                shadow_batch(s, scene, materials, light, begin, count, mask, lights[light].planes, &rays, &hits,
-                             radiance);
+                shadow_batch(s, scene, materials, light, begin, count, mask, lights[light].planes, &rays,
+                             &hits, radiance);
         }
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);

@@ -8,7 +8,7 @@
 
 #include "device/program.h"
 
-enum { RAYS = 1 << 16, STEPS = 3, SHAPES = 36, COLUMNS = 7 };
+enum { RAYS = 51200, STEPS = 3, SHAPES = 36, COLUMNS = 7 };
 
 typedef struct Search {
     Device *device;
