@@ -89,7 +89,7 @@ static bool open_device(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
     const f64 start = clock_seconds();
-    const DeviceOptions how = {.threads = options->threads, .profiling = options->stats};
+    const DeviceOptions how = {.threads = options->threads};
     picture->device = device_open(&picture->devices->devices[picture->device_index], &how, error);
     picture->stats.device_seconds += clock_seconds() - start;
     if (picture->device && options->verbose)

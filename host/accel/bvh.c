@@ -177,7 +177,8 @@ static void build_range(Build *build, u32 node, u32 first, u32 count, u32 depth)
 
 bool bvh_build(const Box *boxes, u32 count, u32 first_node, u32 first_primitive, Bvh *bvh, Error *error)
 {
-    Build build = { malloc(sizeof(Item) * (size_t)count), malloc(sizeof(BinaryNode) * (2 * (size_t)count - 1)) };
+    Build build = { malloc(sizeof(Item) * (size_t)count),
+                    malloc(sizeof(BinaryNode) * (2 * (size_t)count - 1)) };
     Bvh result = { .order = malloc(sizeof(u32) * (size_t)count), .count = count };
     if (!build.items || !build.nodes || !result.order) {
         free(build.items);

@@ -2,10 +2,12 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "device/conditions.h"
 #include "device/internal.h"
 
 typedef struct Text {
     const char *at, *end;
+    Conditions *conditions; // NULL: those of the text do not matter
 } Text;
 
 static bool is_word(char c)
@@ -25,19 +27,32 @@ static void skip_line(Text *text)
         text->at += *text->at == '\\' && text->end - text->at > 1 ? 2 : 1;
 }
 
-// Moves to the next character that is neither blank, comment nor part of a line of the preprocessor.
+static void take_directive(Text *text)
+{
+    const char *line = text->at;
+    skip_line(text);
+    if (text->conditions)
+        conditions_take(text->conditions, line, (size_t)(text->at - line));
+}
+
+// Moves to the next character that is neither blank, comment, part of a line of the preprocessor nor left out
+// by one.
 static void skip_blanks(Text *text)
 {
     while (text->at < text->end) {
         if (isspace((unsigned char)*text->at)) {
             text->at++;
-        } else if (starts(text, "//") || *text->at == '#') {
+        } else if (*text->at == '#') {
+            take_directive(text);
+        } else if (starts(text, "//")) {
             skip_line(text);
         } else if (starts(text, "/*")) {
             text->at += 2;
             while (text->at < text->end && !starts(text, "*/"))
                 text->at++;
             text->at = text->end - text->at > 2 ? text->at + 2 : text->end;
+        } else if (text->conditions && !conditions_hold(text->conditions)) {
+            text->at++;
         } else {
             return;
         }
@@ -48,7 +63,7 @@ static void skip_blanks(Text *text)
 static Text next_token(Text *text)
 {
     skip_blanks(text);
-    Text token = {text->at, text->at};
+    Text token = {text->at, text->at, NULL};
     if (text->at < text->end)
         text->at++;
     if (token.at < text->end && is_word(*token.at))
@@ -85,29 +100,34 @@ static bool find_kernel(Text *text, const char *kernel_name)
     }
 }
 
-i32 source_argument_names(const char *source, size_t length, const char *kernel_name, char *names,
-                          size_t name_size, u32 name_max)
+static void copy_name(char *name, size_t size, const Text *word)
 {
-    Text text = {source, source + length};
+    const size_t length = (size_t)(word->end - word->at);
+    const size_t kept = length < size ? length : size - 1;
+    memcpy(name, word->at, kept);
+    name[kept] = '\0';
+}
+
+i32 source_argument_names(const char *source, size_t length, const char *options, const char *kernel_name,
+                          char *names, size_t name_size, u32 name_max)
+{
+    Text text = {source, source + length, NULL};
     if (!find_kernel(&text, kernel_name))
         return -1;
+    Conditions conditions = {.options = options};
+    text.conditions = &conditions;
     u32 count = 0;
     u32 depth = 0;
-    Text last = {NULL, NULL}; // the last word of an argument is its name
+    Text last = {NULL, NULL, NULL}; // the last word of an argument is its name
     for (;;) {
         const Text token = next_token(&text);
-        if (token.at == token.end)
+        if (token.at == token.end || conditions.broken)
             return -1;
         const bool closes = token_is(&token, ")");
         if (depth == 0 && (closes || token_is(&token, ","))) {
             if (last.at && !token_is(&last, "void")) {
-                if (count < name_max) {
-                    size_t size = (size_t)(last.end - last.at);
-                    if (size >= name_size)
-                        size = name_size - 1;
-                    memcpy(names + count * name_size, last.at, size);
-                    names[count * name_size + size] = '\0';
-                }
+                if (count < name_max)
+                    copy_name(names + count * name_size, name_size, &last);
                 count++;
             }
             if (closes)

@@ -1,35 +1,48 @@
+#define _DEFAULT_SOURCE // MAP_ANONYMOUS, madvise
+
 #include "device/buffer.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "device/internal.h"
 
 static const f64 MIB = 1024.0 * 1024.0;
+static const u64 HUGE_PAGE = 2u << 20;
 
-static void link_buffer(Buffer *buffer)
+// Memory that a CPU device can use in place: what fills a huge page begins with one and is in huge pages
+// where the system grants them; address space beyond the alignment is given back. NULL where there is none.
+static void *memory_alloc(u64 bytes)
 {
-    Device *device = buffer->device;
-    buffer->next = device->buffers;
-    if (buffer->next)
-        buffer->next->previous = buffer;
-    device->buffers = buffer;
-    device->bytes += buffer->bytes;
-    if (device->bytes > device->bytes_peak)
-        device->bytes_peak = device->bytes;
+    if (bytes > SIZE_MAX - 2 * HUGE_PAGE)
+        return NULL;
+    const bool huge = bytes >= HUGE_PAGE;
+    const size_t spare = huge ? HUGE_PAGE : 0;
+    unsigned char *base =
+        mmap(NULL, bytes + spare, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (base == MAP_FAILED)
+        return NULL;
+    if (!huge)
+        return base;
+    // What is kept ends with a page, as munmap wants addresses of pages.
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    const size_t kept = (bytes + page - 1) / page * page;
+    const size_t before = (size_t)(-(uintptr_t)base & (HUGE_PAGE - 1));
+    const size_t whole = (bytes + spare + page - 1) / page * page;
+    if (before > 0)
+        munmap(base, before);
+    if (whole > before + kept)
+        munmap(base + before + kept, whole - before - kept);
+    madvise(base + before, kept, MADV_HUGEPAGE); // a wish; slower without, not wrong
+    return base + before;
 }
 
-static void unlink_buffer(Buffer *buffer)
+static void memory_free(void *memory, u64 bytes)
 {
-    Device *device = buffer->device;
-    if (buffer->next)
-        buffer->next->previous = buffer->previous;
-    if (buffer->previous)
-        buffer->previous->next = buffer->next;
-    else
-        device->buffers = buffer->next;
-    device->bytes -= buffer->bytes;
+    if (memory)
+        munmap(memory, bytes);
 }
 
 // Drivers that allocate late would accept what they can never hold, and the system would end the program.
@@ -46,22 +59,28 @@ static bool fits(const Device *device, const char *name, u64 bytes, Error *error
     return true;
 }
 
-// The cl_mem of a buffer whose other members are set; in_place is memory of the host to use, or NULL.
-static bool allocate(Buffer *buffer, void *in_place, Error *error)
+// The memory of a buffer whose other members are set.
+static bool allocate(Buffer *buffer, Error *error)
 {
-    const cl_mem_flags flags = CL_MEM_READ_WRITE | (in_place ? CL_MEM_USE_HOST_PTR : 0);
+    const Device *device = buffer->device;
+    if (device->info.type == DEVICE_CPU) {
+        buffer->memory = memory_alloc(buffer->bytes);
+        if (!buffer->memory)
+            return error_set(error, ERROR_MEMORY, "buffer '%s' of %.1f MiB: the system has no memory left",
+                             buffer->name, (f64)buffer->bytes / MIB);
+    }
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | (buffer->memory ? CL_MEM_USE_HOST_PTR : 0);
     cl_int status;
-    buffer->mem = clCreateBuffer(buffer->device->context, flags, buffer->bytes, in_place, &status);
+    buffer->mem = clCreateBuffer(device->context, flags, buffer->bytes, buffer->memory, &status);
     if (status == CL_INVALID_BUFFER_SIZE || status == CL_OUT_OF_RESOURCES)
         status = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     if (status != CL_SUCCESS)
         return status_error(error, status, "clCreateBuffer", "buffer '%s' of %.1f MiB on %s", buffer->name,
-                            (f64)buffer->bytes / MIB, buffer->device->info.name);
+                            (f64)buffer->bytes / MIB, device->info.name);
     return true;
 }
 
-// A buffer without cl_mem, counted among those of the device.
-static Buffer *prepare(Device *device, const char *name, u64 bytes, Error *error)
+Buffer *buffer_create(Device *device, const char *name, u64 bytes, Error *error)
 {
     if (bytes == 0)
         bytes = 16; // OpenCL has no empty buffers, and kernels want a pointer all the same
@@ -75,42 +94,10 @@ static Buffer *prepare(Device *device, const char *name, u64 bytes, Error *error
     buffer->device = device;
     buffer->bytes = bytes;
     snprintf(buffer->name, sizeof buffer->name, "%s", name);
-    link_buffer(buffer);
-    return buffer;
-}
-
-Buffer *buffer_create(Device *device, const char *name, u64 bytes, Error *error)
-{
-    Buffer *buffer = prepare(device, name, bytes, error);
-    if (!buffer)
-        return NULL;
-    if (device->info.type == DEVICE_CPU) {
-        buffer->memory_bytes = buffer->bytes;
-        buffer->memory = device_memory_alloc(buffer->memory_bytes);
-        if (!buffer->memory) {
-            error_set(error, ERROR_MEMORY, "buffer '%s' of %.1f MiB: the system has no memory left", name,
-                      (f64)buffer->bytes / MIB);
-            buffer_destroy(buffer);
-            return NULL;
-        }
-    }
-    if (!allocate(buffer, buffer->memory, error)) {
-        buffer_destroy(buffer);
-        return NULL;
-    }
-    return buffer;
-}
-
-Buffer *buffer_wrap(Device *device, const char *name, void *memory, u64 bytes, Error *error)
-{
-    Buffer *buffer = prepare(device, name, bytes, error);
-    if (!buffer)
-        return NULL;
-    const u32 align = device->info.address_align;
-    const bool in_place =
-        device->info.type == DEVICE_CPU && bytes > 0 && align > 0 && (uintptr_t)memory % align == 0;
-    if (!allocate(buffer, in_place ? memory : NULL, error) ||
-        (!in_place && !buffer_upload(buffer, 0, memory, bytes, error))) {
+    device->bytes += bytes;
+    if (device->bytes > device->bytes_peak)
+        device->bytes_peak = device->bytes;
+    if (!allocate(buffer, error)) {
         buffer_destroy(buffer);
         return NULL;
     }
@@ -127,19 +114,9 @@ void buffer_destroy(Buffer *buffer)
             clFinish(buffer->device->queue);
         clReleaseMemObject(buffer->mem);
     }
-    device_memory_free(buffer->memory, buffer->memory_bytes);
-    unlink_buffer(buffer);
+    memory_free(buffer->memory, buffer->bytes);
+    buffer->device->bytes -= buffer->bytes;
     free(buffer);
-}
-
-const char *buffer_name(const Buffer *buffer)
-{
-    return buffer->name;
-}
-
-u64 buffer_bytes(const Buffer *buffer)
-{
-    return buffer->bytes;
 }
 
 static bool in_range(const Buffer *buffer, u64 offset, u64 bytes, const char *what, Error *error)
@@ -177,28 +154,4 @@ bool buffer_download(Buffer *buffer, u64 offset, void *to, u64 bytes, Error *err
         return status_error(error, status, "clEnqueueReadBuffer", "buffer '%s' of %.1f MiB", buffer->name,
                             (f64)buffer->bytes / MIB);
     return true;
-}
-
-bool buffer_fill_u32(Buffer *buffer, u64 offset, u32 value, u64 bytes, Error *error)
-{
-    if (!in_range(buffer, offset, bytes, "a fill", error))
-        return false;
-    if (bytes == 0)
-        return true;
-    const cl_int status = clEnqueueFillBuffer(buffer->device->queue, buffer->mem, &value, sizeof value,
-                                              offset, bytes, 0, NULL, NULL);
-    if (status != CL_SUCCESS)
-        return status_error(error, status, "clEnqueueFillBuffer", "buffer '%s' of %.1f MiB", buffer->name,
-                            (f64)buffer->bytes / MIB);
-    return true;
-}
-
-const Buffer *device_buffers(const Device *device)
-{
-    return device->buffers;
-}
-
-const Buffer *buffer_next(const Buffer *buffer)
-{
-    return buffer->next;
 }

@@ -1,15 +1,8 @@
-#define _DEFAULT_SOURCE // MAP_ANONYMOUS, madvise
-
 #include "device/device.h"
 
 #include <stdlib.h>
-#include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include "device/internal.h"
-
-static const u64 HUGE_PAGE = 2u << 20;
 
 // Narrows a CPU device to `threads` of its compute units.
 static bool take_part(Device *device, u32 threads, Error *error)
@@ -41,8 +34,7 @@ static bool open_device(Device *device, const DeviceOptions *options, Error *err
     device->context = clCreateContext(properties, 1, &device->id, NULL, NULL, &status);
     if (status != CL_SUCCESS)
         return status_error(error, status, "clCreateContext", "%s", info->name);
-    const cl_command_queue_properties queue = device->profiling ? CL_QUEUE_PROFILING_ENABLE : 0;
-    device->queue = clCreateCommandQueue(device->context, device->id, queue, &status);
+    device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
     if (status != CL_SUCCESS)
         return status_error(error, status, "clCreateCommandQueue", "%s", info->name);
     return true;
@@ -57,7 +49,6 @@ Device *device_open(const DeviceInfo *info, const DeviceOptions *options, Error 
     }
     device->info = *info;
     device->id = info->device_id;
-    device->profiling = options->profiling;
     if (!open_device(device, options, error)) {
         device_close(device);
         return NULL;
@@ -69,7 +60,6 @@ void device_close(Device *device)
 {
     if (!device)
         return;
-    device_collect_times(device);
     if (device->queue)
         clReleaseCommandQueue(device->queue);
     if (device->context)
@@ -89,7 +79,6 @@ bool device_finish(Device *device, Error *error)
     const cl_int status = clFinish(device->queue);
     if (status != CL_SUCCESS)
         return status_error(error, status, "clFinish", "%s", device->info.name);
-    device_collect_times(device);
     return true;
 }
 
@@ -101,36 +90,4 @@ u64 device_bytes(const Device *device)
 u64 device_bytes_peak(const Device *device)
 {
     return device->bytes_peak;
-}
-
-// Whole huge pages for what fills one; address space beyond the alignment is given back.
-void *device_memory_alloc(u64 bytes)
-{
-    if (bytes == 0 || bytes > SIZE_MAX - 2 * HUGE_PAGE)
-        return NULL;
-    const bool huge = bytes >= HUGE_PAGE;
-    const size_t spare = huge ? HUGE_PAGE : 0;
-    unsigned char *base =
-        mmap(NULL, bytes + spare, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (base == MAP_FAILED)
-        return NULL;
-    if (!huge)
-        return base;
-    // What is kept ends with a page, as munmap wants addresses of pages.
-    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
-    const size_t kept = (bytes + page - 1) / page * page;
-    const size_t before = (size_t)(-(uintptr_t)base & (HUGE_PAGE - 1));
-    const size_t whole = (bytes + spare + page - 1) / page * page;
-    if (before > 0)
-        munmap(base, before);
-    if (whole > before + kept)
-        munmap(base + before + kept, whole - before - kept);
-    madvise(base + before, kept, MADV_HUGEPAGE); // a wish; slower without, not wrong
-    return base + before;
-}
-
-void device_memory_free(void *memory, u64 bytes)
-{
-    if (memory)
-        munmap(memory, bytes);
 }

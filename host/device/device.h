@@ -10,8 +10,7 @@
 typedef struct Device Device;
 
 typedef struct DeviceOptions {
-    u32 threads;    // bound of the threads of a CPU device, 0: all; means nothing to other devices
-    bool profiling; // measure every launch (kernel_seconds)
+    u32 threads; // bound of the threads of a CPU device, 0: all; means nothing to other devices
 } DeviceOptions;
 
 // Opens the device that info describes; what is needed of *info is copied. Returns NULL and sets *error
@@ -28,11 +27,5 @@ bool device_finish(Device *device, Error *error);
 // Bytes in buffers of the device now, and the most there have been.
 u64 device_bytes(const Device *device);
 u64 device_bytes_peak(const Device *device);
-
-// Zeroed host memory that a CPU device can use in place (buffer_wrap): 2 MiB-aligned, in huge pages where
-// the system grants them, where it is large enough for that; else page-aligned. Returns NULL when memory is
-// exhausted or bytes is 0.
-void *device_memory_alloc(u64 bytes);
-void device_memory_free(void *memory, u64 bytes);
 
 #endif

@@ -13,8 +13,6 @@ struct Kernel {
     u32 argument_count;
     char argument_names[ARGUMENT_MAX][ARGUMENT_NAME];
     bool argument_set[ARGUMENT_MAX];
-    u64 launches;
-    u64 nanoseconds;
 };
 
 // Names from the driver; false where it does not tell them.
@@ -47,7 +45,7 @@ static bool open_kernel(Kernel *kernel, Error *error)
     kernel->argument_count = count;
     if (read_names(kernel))
         return true;
-    const i32 found = source_argument_names(program->source, program->length, kernel->name,
+    const i32 found = source_argument_names(program->source, program->length, program->options, kernel->name,
                                             kernel->argument_names[0], ARGUMENT_NAME, ARGUMENT_MAX);
     if (found != (i32)count)
         return error_set(error, ERROR_DEVICE,
@@ -77,15 +75,9 @@ void kernel_destroy(Kernel *kernel)
 {
     if (!kernel)
         return;
-    device_collect_times(kernel->program->device);
     if (kernel->kernel)
         clReleaseKernel(kernel->kernel);
     free(kernel);
-}
-
-const char *kernel_name(const Kernel *kernel)
-{
-    return kernel->name;
 }
 
 static i32 find_argument(const Kernel *kernel, const char *name)
@@ -112,7 +104,7 @@ static bool no_argument(const Kernel *kernel, const char *name, Error *error)
                      names);
 }
 
-// What every kernel_set_X comes to; bytes NULL asks for local memory.
+// What every kernel_set_X comes to.
 static bool set_argument(Kernel *kernel, const char *name, size_t size, const void *bytes, Error *error)
 {
     const i32 index = find_argument(kernel, name);
@@ -136,44 +128,9 @@ bool kernel_set_u32(Kernel *kernel, const char *name, u32 value, Error *error)
     return set_argument(kernel, name, sizeof value, &value, error);
 }
 
-bool kernel_set_f32(Kernel *kernel, const char *name, f32 value, Error *error)
-{
-    return set_argument(kernel, name, sizeof value, &value, error);
-}
-
-bool kernel_set_bytes(Kernel *kernel, const char *name, const void *bytes, size_t size, Error *error)
-{
-    return set_argument(kernel, name, size, bytes, error);
-}
-
 bool kernel_set_local(Kernel *kernel, const char *name, size_t bytes, Error *error)
 {
     return set_argument(kernel, name, bytes, NULL, error);
-}
-
-u32 kernel_local_max(const Kernel *kernel)
-{
-    size_t size = 0;
-    const cl_int status = clGetKernelWorkGroupInfo(kernel->kernel, kernel->program->device->id,
-                                                   CL_KERNEL_WORK_GROUP_SIZE, sizeof size, &size, NULL);
-    return status == CL_SUCCESS && size > 0 ? (u32)size : 1;
-}
-
-void device_collect_times(Device *device)
-{
-    for (u32 i = 0; i < device->pending_count; i++) {
-        const Pending *pending = &device->pending[i];
-        cl_ulong start = 0, end = 0;
-        clWaitForEvents(1, &pending->event);
-        if (clGetEventProfilingInfo(pending->event, CL_PROFILING_COMMAND_START, sizeof start, &start, NULL) ==
-                CL_SUCCESS &&
-            clGetEventProfilingInfo(pending->event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL) ==
-                CL_SUCCESS &&
-            end > start)
-            pending->kernel->nanoseconds += end - start;
-        clReleaseEvent(pending->event);
-    }
-    device->pending_count = 0;
 }
 
 bool kernel_launch(Kernel *kernel, u64 global, u64 local, Error *error)
@@ -184,32 +141,13 @@ bool kernel_launch(Kernel *kernel, u64 global, u64 local, Error *error)
                              kernel->argument_names[i]);
     if (global == 0)
         return true;
-    Device *device = kernel->program->device;
+    const Device *device = kernel->program->device;
     const size_t group = local;
     const size_t items = local > 0 ? (global + local - 1) / local * local : global;
-    cl_event event;
     const cl_int status = clEnqueueNDRangeKernel(device->queue, kernel->kernel, 1, NULL, &items,
-                                                 local > 0 ? &group : NULL, 0, NULL,
-                                                 device->profiling ? &event : NULL);
+                                                 local > 0 ? &group : NULL, 0, NULL, NULL);
     if (status != CL_SUCCESS)
         return status_error(error, status, "clEnqueueNDRangeKernel",
                             "kernel '%s', %zu work-items in groups of %zu", kernel->name, items, group);
-    kernel->launches++;
-    if (device->profiling) {
-        if (device->pending_count == PENDING_MAX)
-            device_collect_times(device);
-        device->pending[device->pending_count++] = (Pending){event, kernel};
-    }
     return true;
-}
-
-u64 kernel_launches(const Kernel *kernel)
-{
-    return kernel->launches;
-}
-
-f64 kernel_seconds(Kernel *kernel)
-{
-    device_collect_times(kernel->program->device);
-    return (f64)kernel->nanoseconds * 1e-9;
 }

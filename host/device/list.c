@@ -70,7 +70,6 @@ static void read_device(DeviceInfo *info, cl_platform_id platform, cl_device_id 
     info->allocation_max = device_number(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
     info->compute_units = (u32)device_number(id, CL_DEVICE_MAX_COMPUTE_UNITS);
     info->float_width = (u32)device_number(id, CL_DEVICE_PREFERRED_VECTOR_WIDTH_FLOAT);
-    info->address_align = (u32)device_number(id, CL_DEVICE_MEM_BASE_ADDR_ALIGN) / 8;
     info->fp64 = device_number(id, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     const cl_device_fp_config single = device_number(id, CL_DEVICE_SINGLE_FP_CONFIG);
     info->exact_divide = (single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;

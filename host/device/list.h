@@ -18,7 +18,6 @@ typedef struct DeviceInfo {
     u64 allocation_max; // bytes of the largest buffer
     u32 compute_units;
     u32 float_width;   // preferred floats in a vector; 1 where the hardware vectorises by itself
-    u32 address_align; // bytes, what in-place host memory must be aligned to
     bool fp64;
     bool exact_divide; // float division and square root can be requested correctly rounded
     char unusable[128]; // why nothing can run on it; "" where it can

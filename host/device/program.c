@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "device/internal.h"
 
 // The build log, NULL where there is none.
@@ -43,20 +42,17 @@ static bool build(Program *program, const char *options, Error *error)
         return status_error(error, status, "clCreateProgramWithSource", "%s", device->info.name);
     static const char FORMAT[] = "-cl-std=CL1.2 -cl-kernel-arg-info %s";
     const size_t size = sizeof FORMAT + strlen(options);
-    char *all = malloc(size);
-    if (!all)
+    program->options = malloc(size);
+    if (!program->options)
         return error_set(error, ERROR_MEMORY, "no memory for the build options");
-    snprintf(all, size, FORMAT, options);
-    const f64 start = clock_seconds();
-    status = clBuildProgram(program->program, 1, &device->id, all, NULL, NULL);
-    program->build_seconds = clock_seconds() - start;
+    snprintf(program->options, size, FORMAT, options);
+    status = clBuildProgram(program->program, 1, &device->id, program->options, NULL, NULL);
     if (status != CL_SUCCESS) {
         char *log = read_log(program);
         status_error(error, status, "clBuildProgram", "%s:\n%s\noptions: %s", device->info.name,
-                     log ? first_error(log) : "", all);
+                     log ? first_error(log) : "", program->options);
         free(log);
     }
-    free(all);
     return status == CL_SUCCESS;
 }
 
@@ -83,10 +79,6 @@ void program_destroy(Program *program)
         return;
     if (program->program)
         clReleaseProgram(program->program);
+    free(program->options);
     free(program);
-}
-
-f64 program_build_seconds(const Program *program)
-{
-    return program->build_seconds;
 }

@@ -14,37 +14,23 @@ typedef struct Kernel Kernel;
 Program *program_create(Device *device, const char *source, size_t length, const char *options, Error *error);
 void program_destroy(Program *program);
 
-// Seconds that program_create spent building.
-f64 program_build_seconds(const Program *program);
-
 // Returns NULL and sets *error where the program has no such kernel.
 Kernel *kernel_create(Program *program, const char *name, Error *error);
 void kernel_destroy(Kernel *kernel);
-const char *kernel_name(const Kernel *kernel);
 
 // Bind the argument called name for the launches to come. Fail with ERROR_DEVICE, naming the arguments there
 // are, where the kernel has no such argument or where it is of another size.
 bool kernel_set_buffer(Kernel *kernel, const char *name, const Buffer *buffer, Error *error);
 bool kernel_set_u32(Kernel *kernel, const char *name, u32 value, Error *error);
-bool kernel_set_f32(Kernel *kernel, const char *name, f32 value, Error *error);
-bool kernel_set_bytes(Kernel *kernel, const char *name, const void *bytes, size_t size, Error *error);
 // Local memory of `bytes` bytes for each work-group.
 bool kernel_set_local(Kernel *kernel, const char *name, size_t bytes, Error *error);
 
 // True where the kernel has an argument of that name: features leave arguments out.
 bool kernel_has(const Kernel *kernel, const char *name);
 
-// The largest work-group that the device can run this kernel with.
-u32 kernel_local_max(const Kernel *kernel);
-
 // Puts global work-items in groups of local (0: the driver's choice) into the queue and returns at once.
 // global is rounded up to a multiple of local, so a kernel compares its index with its count; global 0
 // launches nothing. Fails with ERROR_DEVICE where an argument was never set, naming it.
 bool kernel_launch(Kernel *kernel, u64 global, u64 local, Error *error);
-
-u64 kernel_launches(const Kernel *kernel);
-// Seconds on the device in all launches so far; 0 where the device was opened without profiling. Waits for
-// launches under way.
-f64 kernel_seconds(Kernel *kernel);
 
 #endif

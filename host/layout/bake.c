@@ -352,8 +352,9 @@ static bool primitive_in_range(const Primitive *p)
 {
     if (!isfinite(p->p0) || !isfinite(p->p1) || !isfinite(p->p2))
         return false;
-    if (p->kind == PRIMITIVE_BOX && !(extent_in_range(p->row0.w, p->p0) && extent_in_range(p->row1.w, p->p1) &&
-                                      extent_in_range(p->row2.w, p->p2)))
+    const bool vanished = !extent_in_range(p->row0.w, p->p0) || !extent_in_range(p->row1.w, p->p1) ||
+                          !extent_in_range(p->row2.w, p->p2);
+    if (p->kind == PRIMITIVE_BOX && vanished)
         return false;
     if (p->kind == PRIMITIVE_TRIANGLE)
         return row_in_range(p->row0) && row_in_range(p->row1) && row_in_range(p->row2);

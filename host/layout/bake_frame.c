@@ -4,7 +4,7 @@
 
 void bake_split_whole(f64 x, f32 *whole, f32 *rest)
 {
-    *whole = (f32)floor(x);
+    *whole = (f32)round(x);
     *rest = (f32)(x - *whole);
 }
 

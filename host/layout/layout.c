@@ -26,7 +26,8 @@ static FeatureSet material_features(const Scene *scene, const Material *material
         if (!seen[k] || inputs[k].texture < 0)
             continue;
         const bool solid = scene->textures[inputs[k].texture].kind == TEXTURE_CHECKER3D;
-        set |= solid ? feature_bit(FEATURE_CHECKER3D) : feature_bit(FEATURE_CHECKER) | feature_bit(FEATURE_UV);
+        set |= solid ? feature_bit(FEATURE_CHECKER3D)
+                     : feature_bit(FEATURE_CHECKER) | feature_bit(FEATURE_UV);
     }
     if (seen[1] && (material->ambient.texture >= 0 || positive(material->ambient.color)))
         set |= feature_bit(FEATURE_AMBIENT);

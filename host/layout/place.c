@@ -99,7 +99,8 @@ static bool add_shape(Placer *placer, PrimitiveList *list, const Shape *shape, A
     Primitive primitive;
     BakedBounds bounds;
     ObjectFrame frame;
-    PrimitiveInfo info = { material < 0 ? NO_INDEX : (u32)material, NO_INDEX, (u32)order, (u32)(order >> 32) };
+    PrimitiveInfo info = { material < 0 ? NO_INDEX : (u32)material, NO_INDEX, (u32)order,
+                           (u32)(order >> 32) };
     const Affine total = affine_compose(to_space, shape->transform);
     memset(&primitive, 0, sizeof primitive);
     if (!bake_shape(shape, &total, &primitive, &bounds, error) ||

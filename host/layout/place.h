@@ -1,6 +1,7 @@
-// Placer: flattens objects and instances to two levels. Top-level shapes, and objects of a single shape, become
-// primitives of the top-level hierarchy; every other placed object becomes one INSTANCE primitive there and
-// keeps its shapes once, in a list of its own. Infinite planes, wherever they are placed, form one list.
+// Placer: flattens objects and instances to two levels. Top-level shapes, and objects of a single shape,
+// become primitives of the top-level hierarchy; every other placed object becomes one INSTANCE primitive
+// there and keeps its shapes once, in a list of its own. Infinite planes, wherever they are placed, form one
+// list.
 #ifndef CLRT_LAYOUT_PLACE_H
 #define CLRT_LAYOUT_PLACE_H
 
@@ -32,8 +33,8 @@ typedef struct Placer {
 } Placer;
 
 // Places the scene's world. Index of the object stands in p0 (bits, i32) of INSTANCE primitives until the
-// roots are known. Fails with ERROR_MEMORY, and with ERROR_SCENE where a number leaves the range of float; the
-// placer is to be destroyed either way.
+// roots are known. Fails with ERROR_MEMORY, and with ERROR_SCENE where a number leaves the range of float;
+// the placer is to be destroyed either way.
 bool placer_run(Placer *placer, const Scene *scene, Error *error);
 void placer_destroy(Placer *placer);
 

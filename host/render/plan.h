@@ -1,5 +1,5 @@
-// Plan: how an image is cut into bands and how many tiles are in flight, from the device and the memory it may
-// use. Nothing here changes a bit of the picture.
+// Plan: how an image is cut into bands and how many tiles are in flight, from the device and the memory it
+// may use. Nothing here changes a bit of the picture.
 #ifndef CLRT_RENDER_PLAN_H
 #define CLRT_RENDER_PLAN_H
 

@@ -34,8 +34,8 @@ size_t render_program_options(FeatureSet features, const DeviceInfo *info, char 
     const DeviceShape shape = plan_device_shape(info);
     const int head =
         snprintf(text, size, "%s-w -DLANES=%u -DBATCH=%u -DGROUP=%u",
-                 info->exact_divide ? "-cl-fp32-correctly-rounded-divide-sqrt " : "", shape.lanes, shape.batch,
-                 shape.group);
+                 info->exact_divide ? "-cl-fp32-correctly-rounded-divide-sqrt " : "", shape.lanes,
+                 shape.batch, shape.group);
     const size_t used = (size_t)head;
     return used + features_options(features, used < size ? text + used : NULL, used < size ? size - used : 0);
 }
@@ -104,7 +104,8 @@ static bool add_work_buffers(Render *render, Error *error)
                       items * RAYS_KINDS * sizeof *render->counts, error) &&
            kernel_set_u32(kernel, "state_real_fields", plan->real_fields, error) &&
            kernel_set_u32(kernel, "state_int_fields", plan->int_fields, error) &&
-           kernel_set_u32(kernel, "pending_reals", plan->pending_reals, error);
+           kernel_set_u32(kernel, "pending_reals", plan->pending_reals, error) &&
+           kernel_set_local(kernel, "scratch", plan->shape.group * sizeof(u32), error);
 }
 
 static void set_params(Render *render)
@@ -134,8 +135,8 @@ static bool build(Render *render, Error *error)
     return render->kernel != NULL;
 }
 
-// Renders samples up to sample_end - 1 of `rows` rows from band_top on. No rows launch an idle group, so that the
-// driver generates the code.
+// Renders samples up to sample_end - 1 of `rows` rows from band_top on. No rows launch an idle group, so that
+// the driver generates the code.
 static bool launch(Render *render, u32 rows, u32 sample_end, Error *error)
 {
     const Plan *plan = &render->plan;

@@ -2,14 +2,18 @@
 #ifndef CLRT_KERNELS_MATERIAL_LOBES_H
 #define CLRT_KERNELS_MATERIAL_LOBES_H
 
-#include "base/math.h"
 #include "base/vec.h"
+#if HAS_SPECULAR
+#include "base/exp_log.h"
+#endif
 
+#if HAS_PHONG || HAS_REFLECT
 // Reflected direction, D - 2 (D.N) N.
 static inline v3 reflect_about(v3 dir, v3 normal)
 {
     return v3_fma(normal, -2.0f * v3_dot(dir, normal), dir);
 }
+#endif
 
 #if HAS_SPECULAR
 // cos^exponent from versine = 1 - cos >= 0; 0 where cos <= 0, but 0^0 = 1. What 1 - versine loses by rounding

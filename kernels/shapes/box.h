@@ -9,8 +9,8 @@ typedef struct {
     vf low, high;
 } SlabTimes;
 
-// By the formula of intersect_plane, so that faces, planes and disks in one plane have the same t. A ray along
-// the faces is between them always or never.
+// By the formula of intersect_plane, so that faces, planes and disks in one plane have the same t. A ray
+// along the faces is between them always or never.
 static inline SlabTimes slab_times(v3 n, vf low, vf high, const RayLanes *ray)
 {
     SlabTimes s;
@@ -63,7 +63,10 @@ static inline void slab_offer(FaceChoice *best, const RayLanes *ray, vf t, v3 n,
 
 #if HAS_UV
 // Where a coordinate lies between the faces of a pair, 0 to 1.
-static inline vf slab_share(v3 n, vf low, vf high, v3 at) { return plane_distance(n, low, at) / (high - low); }
+static inline vf slab_share(v3 n, vf low, vf high, v3 at)
+{
+    return plane_distance(n, low, at) / (high - low);
+}
 
 // Right and up of somebody who faces the side; face = 2 axis + (1 on the side that looks along the axis).
 static inline void box_uv(const PrimitiveLanes *p, vi face, SurfaceLanes *s)

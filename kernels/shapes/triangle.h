@@ -80,10 +80,10 @@ static inline TriangleWeights triangle_weights(const PrimitiveLanes *p, const Ra
 }
 
 // t is that of the plane, by the formula of intersect_plane, so that shapes in one plane have the same t, or
-// the mean of the vertices' t where the plane's error bound is several times larger (by p0): the mean is exact
-// to the size of the triangle, the plane to the distances from the origin of the space. Either way the error
-// along the normal stays below what rays are moved off a surface, so that triangles in one plane never shadow
-// each other.
+// the mean of the vertices' t where the plane's error bound is several times larger (by p0): the mean is
+// exact to the size of the triangle, the plane to the distances from the origin of the space. Either way the
+// error along the normal stays below what rays are moved off a surface, so that triangles in one plane never
+// shadow each other.
 static inline vf intersect_triangle(const PrimitiveLanes *p, const RayLanes *ray)
 {
     const TriangleWeights w = triangle_weights(p, ray);

@@ -11,7 +11,8 @@
 #define BVH_MAX_LEAF 1
 
 // Lower and upper planes, in units of the space that the hierarchy lives in; an empty slot has
-// lower +infinity and upper -infinity, which no ray hits. child >= 0: index of a node; < 0: ~((first << 4) | count), count primitives from first on.
+// lower +infinity and upper -infinity, which no ray hits. child >= 0: index of a node; < 0:
+// ~((first << 4) | count), count primitives from first on.
 typedef struct BvhNode {
     f32 lower_x[BVH_WIDTH];
     f32 lower_y[BVH_WIDTH];

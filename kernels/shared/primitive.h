@@ -12,7 +12,7 @@
 //   ELLIPSOID    a sphere under any other transform: q = A (p - c), |q| = 1, q along object axes
 //   PLANE        row2.xyz = unit normal n; p0 = n.p on the plane; row0.xyz, row1.xyz = gradients of u and v;
 //                u = row0.p + (row0.w + row1.w), v = row1.p + (row2.w + p1): first term of each sum a whole
-//                number, second one what is missing (less than 1 up to 2^24)
+//                number, second one what is missing (at most 1/2 up to 2^24)
 //   BOX          row_i.xyz = unit normals of the three pairs of faces, along the object's axes;
 //                row_i.w <= row_i.p <= p_i: both faces of a pair as offsets, as a plane has its own
 //   TETRAHEDRON  q = A p + c >= 0: the barycentric weights of b, c, d; that of a is

@@ -102,7 +102,8 @@ static inline void drain_queue(const State *s, const Hierarchy *scene, const Sha
 }
 
 // Renders samples sample_begin .. sample_end - 1 of the band of band_rows rows of the crop from row band_top
-// on. Group g does tiles g, g + groups, ... of the band, counted row by row.
+// on. Group g does tiles g, g + groups, ... of the band, counted row by row. scratch: GROUP numbers; an
+// argument, because PoCL 3.1 lets groups that run side by side share a local array of the kernel itself.
 kernel void render_tiles(constant RenderParams *params,
 #if HAS_SURFACES
                          global const Primitive *primitives, global const PrimitiveInfo *infos,
@@ -129,9 +130,8 @@ kernel void render_tiles(constant RenderParams *params,
                          global real *state_reals, global int *state_ints, global real *film,
                          global uint *ray_counts, uint state_real_fields, uint state_int_fields,
                          uint pending_reals, uint band_top, uint band_rows, uint sample_begin,
-                         uint sample_end)
+                         uint sample_end, local uint *scratch)
 {
-    local uint scratch[GROUP];
     const uint group = get_group_id(0), groups = get_num_groups(0);
     const uint side = TILE_SIDE >> params->slots_log2 / 2;
     const uint columns = (params->crop_width + side - 1) / side;

@@ -3,8 +3,11 @@
 #ifndef CLRT_KERNELS_STAGES_SHADE_H
 #define CLRT_KERNELS_STAGES_SHADE_H
 
+#if HAS_LIGHTS
 #include "light/punctual.h"
+#endif
 #include "material/lobes.h"
+#include "shared/light.h"
 #include "stages/hit.h"
 #include "stages/queue.h"
 

@@ -6,20 +6,28 @@
 
 #include <cmocka.h>
 
+#include "device/conditions.h"
 #include "device/internal.h"
 
 enum { NAMES = 8, SIZE = 16 };
 
-static void finds(const char *source, const char *kernel, i32 count, const char *joined)
+static void finds_with(const char *options, const char *source, const char *kernel, i32 count,
+                       const char *joined)
 {
     char names[NAMES][SIZE] = {{0}};
     char all[NAMES * SIZE] = "";
-    assert_int_equal(source_argument_names(source, strlen(source), kernel, names[0], SIZE, NAMES), count);
+    assert_int_equal(
+        source_argument_names(source, strlen(source), options, kernel, names[0], SIZE, NAMES), count);
     for (i32 i = 0; i < count && i < NAMES; i++) {
         strcat(all, names[i]);
         strcat(all, " ");
     }
     assert_string_equal(all, joined);
+}
+
+static void finds(const char *source, const char *kernel, i32 count, const char *joined)
+{
+    finds_with("", source, kernel, count, joined);
 }
 
 static void reads_plain_kernels(void **state)
@@ -75,6 +83,48 @@ static void counts_beyond_the_room(void **state)
     finds("kernel void f(int a_name_longer_than_the_room_there_is) {}", "f", 1, "a_name_longer_t ");
 }
 
+static void passes_over_what_conditions_leave_out(void **state)
+{
+    (void)state;
+    const char *source = "#if HAS_A\nvoid f(int wrong);\n#endif\n"
+                         "kernel void f(global int *first,\n"
+                         "#if HAS_A // the array, (or both\n"
+                         "  global int *a, // (\n"
+                         "#if HAS_B\n  global int *ab,\n#else\n  global int *a_only,\n#endif\n"
+                         "#elif HAS_B || \\\n HAS_C\n  global int *b_or_c,\n"
+                         "#endif\n"
+                         "#line 3 \"a.cl\"\n"
+                         "#if !HAS_A\n  /* #endif */ int not_a\n#else\n  int last\n#endif\n)\n"
+                         "#if HAS_A\n{ }\n#endif\n";
+    finds_with("-w -DHAS_A=0 -DHAS_B=0", source, "f", 2, "first not_a ");
+    finds_with("-DHAS_A=1 -DHAS_B=0", source, "f", 4, "first a a_only last ");
+    finds_with("-DHAS_A=1 -DHAS_B=1", source, "f", 4, "first a ab last ");
+    finds_with("-DHAS_A=0 -DHAS_B=1", source, "f", 3, "first b_or_c not_a ");
+    finds_with("-DHAS_C", source, "f", 3, "first b_or_c not_a ");
+    const char *all = "kernel void g(\n#if HAS_A\nint a\n#endif\n) {}";
+    finds_with("-DHAS_A=1", all, "g", 1, "a ");
+    finds_with("-DHAS_A=0", all, "g", 0, "");
+}
+
+static void refuses_what_it_does_not_understand(void **state)
+{
+    (void)state;
+    finds_with("", "kernel void f(\n#if A > 1\nint a,\n#endif\nint b) {}", "f", -1, "");
+    finds_with("-DA=float", "kernel void f(\n#if A\nint a,\n#endif\nint b) {}", "f", -1, "");
+    finds_with("", "kernel void f(\n#endif\nint b) {}", "f", -1, "");
+    finds_with("", "kernel void f(\n#else\nint b) {}", "f", -1, "");
+    finds_with("", "kernel void f(\n#if 0\nint b) {}", "f", -1, "");
+    // Nor need it where that stands in a part that is left out.
+    finds_with("", "kernel void f(\n#if 0\n#if A > 1\n#elif A > 2\n#endif\n#endif\nint b) {}", "f", 1, "b ");
+    char deep[1024] = "kernel void f(\n";
+    for (u32 i = 0; i < CONDITIONS_MAX + 1; i++)
+        strcat(deep, "#if 1\n");
+    strcat(deep, "int a) {}\n");
+    finds_with("", deep, "f", -1, "");
+    memcpy(deep + 15, "      ", 6); // one less
+    finds_with("", deep, "f", 1, "a ");
+}
+
 static void survives_broken_text(void **state)
 {
     (void)state;
@@ -93,6 +143,8 @@ int main(void)
         cmocka_unit_test(passes_over_what_stands_in_brackets),
         cmocka_unit_test(prefers_the_whole_name),
         cmocka_unit_test(counts_beyond_the_room),
+        cmocka_unit_test(passes_over_what_conditions_leave_out),
+        cmocka_unit_test(refuses_what_it_does_not_understand),
         cmocka_unit_test(survives_broken_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

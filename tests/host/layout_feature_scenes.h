@@ -1,5 +1,5 @@
-// For each feature a small scene that has it, and the same scene as nearly as can be without it. Shared by the
-// tests of the layout and of the programs made for these scenes.
+// For each feature a small scene that has it, and the same scene as nearly as can be without it. Shared by
+// the tests of the layout and of the programs made for these scenes.
 #ifndef CLRT_TESTS_LAYOUT_FEATURE_SCENES_H
 #define CLRT_TESTS_LAYOUT_FEATURE_SCENES_H
 
@@ -19,7 +19,8 @@ static const FeatureScenes feature_scenes[] = {
     {FEATURE_SURFACES, SHAPE_BALL, ""},
     {FEATURE_BVH, SHAPE_BALL, "plane { point 0 -1 0 normal 0 1 0 }\n"},
     {FEATURE_INSTANCES,
-     "object pair { sphere { center 0 0 -4 radius 1 } sphere { center 1 0 -4 radius 1 } }\ninstance pair { }\n",
+     "object pair { sphere { center 0 0 -4 radius 1 } sphere { center 1 0 -4 radius 1 } }\n"
+     "instance pair { }\n",
      "sphere { center 0 0 -4 radius 1 } sphere { center 1 0 -4 radius 1 }\n"},
     {FEATURE_SPHERE, SHAPE_BALL "box { min -1 -2 -5 max 1 -1 -4 }\n", "box { min -1 -2 -5 max 1 -1 -4 }\n"},
     {FEATURE_GIANT_SPHERE, SHAPE_BALL "sphere { center 0 -6.4e6 0 radius 6.399999e6 }\n", SHAPE_BALL},
@@ -57,7 +58,8 @@ static const FeatureScenes feature_scenes[] = {
      "material m blinn_phong { specular 0.5 }\n" SHAPE_BALL_OF("m") LIGHT_LAMP},
     {FEATURE_BLINN, "material m blinn_phong { specular 0.5 }\n" SHAPE_BALL_OF("m") LIGHT_LAMP,
      MATERIAL_M("specular 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP},
-    {FEATURE_EMISSION, MATERIAL_M("emission 1") SHAPE_BALL_OF("m"), MATERIAL_M("emission 0") SHAPE_BALL_OF("m")},
+    {FEATURE_EMISSION, MATERIAL_M("emission 1") SHAPE_BALL_OF("m"),
+     MATERIAL_M("emission 0") SHAPE_BALL_OF("m")},
     {FEATURE_AMBIENT, SHAPE_BALL, "ambient 0\n" SHAPE_BALL},
     {FEATURE_BACKGROUND, "background 0.5\n" SHAPE_BALL, "background 0\n" SHAPE_BALL},
     {FEATURE_REFLECT, MATERIAL_M("reflect 0.5") SHAPE_BALL_OF("m"), SHAPE_BALL},

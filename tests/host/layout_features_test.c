@@ -44,7 +44,8 @@ static void expect_features(const char *text, FeatureSet expected)
 static void test_exact_sets(void **state)
 {
     (void)state;
-    const FeatureSet ball = feature_bit(FEATURE_SURFACES) | feature_bit(FEATURE_BVH) | feature_bit(FEATURE_SPHERE);
+    const FeatureSet ball =
+        feature_bit(FEATURE_SURFACES) | feature_bit(FEATURE_BVH) | feature_bit(FEATURE_SPHERE);
     const FeatureSet ambient = feature_bit(FEATURE_AMBIENT), lamp = feature_bit(FEATURE_LIGHTS) |
                                                                     feature_bit(FEATURE_POINT) |
                                                                     feature_bit(FEATURE_SHADOWS);
@@ -81,13 +82,14 @@ static void test_unused(void **state)
     }
     // Lights without anything to shine on; rays that no depth is left for; highlights without lights.
     expect_features(LIGHT_LAMP, 0);
-    expect_features("render { max_depth 0 }\n" MATERIAL_M("reflect 1 transmit 1 fresnel on") SHAPE_BALL_OF("m"),
-                    plain);
+    expect_features("render { max_depth 0 }\n"
+                    MATERIAL_M("reflect 1 transmit 1 fresnel on") SHAPE_BALL_OF("m"), plain);
     expect_features(MATERIAL_M("specular 1") SHAPE_BALL_OF("m"), plain);
     // Without ambient light, a texture of the ambient colour; without lights, one of the diffuse colour.
     expect_features("ambient 0\ntexture t checker { }\n" MATERIAL_M("ambient t") SHAPE_BALL_OF("m"),
                     plain & ~feature_bit(FEATURE_AMBIENT));
-    expect_features("texture t checker3d { }\n" MATERIAL_M("diffuse t ambient 0.5") SHAPE_BALL_OF("m"), plain);
+    expect_features("texture t checker3d { }\n"
+                    MATERIAL_M("diffuse t ambient 0.5") SHAPE_BALL_OF("m"), plain);
     // Depth 0 still lets light through glass.
     assert_true(features_have(features_of("render { max_depth 0 }\n" MATERIAL_M("transmit 1")
                                               SHAPE_BALL_OF("m") LIGHT_LAMP),
@@ -110,7 +112,8 @@ static void test_inherited(void **state)
     assert_true(features_have(features_of(text), FEATURE_EMISSION));
     // The shapes have materials of their own: that of the instance is not used.
     expect_features(MATERIAL_M("reflect 0.5") "material n phong { }\n"
-                    "object o { sphere { center 0 0 0 radius 1 material n } box { min 0 0 0 max 1 1 1 material n } }\n"
+                    "object o { sphere { center 0 0 0 radius 1 material n }\n"
+                    "box { min 0 0 0 max 1 1 1 material n } }\n"
                     "instance o { material m }\n",
                     features_of("object o { sphere { center 0 0 0 radius 1 } box { min 0 0 0 max 1 1 1 } }\n"
                                 "instance o { }\n"));

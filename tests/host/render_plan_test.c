@@ -1,5 +1,5 @@
-// Plans: whatever the memory and the device, a plan fits into the limit, covers the image, and is as large as it
-// may be; below the least it is refused.
+// Plans: whatever the memory and the device, a plan fits into the limit, covers the image, and is as large as
+// it may be; below the least it is refused.
 #include "layout_fixture.h"
 
 #include "render/plan.h"
@@ -233,8 +233,8 @@ static void test_shapes(void **state)
     expect_shape("8,16,1", &cpu, 8, 16, 1);
     expect_shape("1,1,16", &cpu, 1, 1, 16);
     // What no program can be made for is not heeded.
-    static const char *const wrong[] = {"", "8", "8,32", "0,0,1", "8,12,1", "8,64,1", "8,32,0", "1,1,257", "8,0,1",
-                                        "3,3,1", "2,32,1", "32,32,1"};
+    static const char *const wrong[] = {"",       "8",      "8,32",    "0,0,1", "8,12,1", "8,64,1",
+                                        "8,32,0", "1,1,257", "8,0,1",   "3,3,1", "2,32,1", "32,32,1"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         expect_shape(wrong[i], &cpu, 4, 32, 1);
 }

@@ -273,20 +273,14 @@ static void masks_and_lanes_are_as_stated(void **state)
 
 int main(void)
 {
-    KernelDevice *device = kernel_device_create();
-    if (!device)
-        return KERNEL_TEST_SKIP;
-    printf("device: %s\n", kernel_device_name(device));
     const struct CMUnitTest tests[] = {
-        kernel_unit_test(contraction_is_off, device),
-        kernel_unit_test(division_and_root_are_correctly_rounded, device),
-        kernel_unit_test(sums_and_products_are_exact, device),
-        kernel_unit_test(two_floats_keep_48_bits, device),
-        kernel_unit_test(difference_of_products_survives_cancellation, device),
-        kernel_unit_test(vectors_keep_their_bounds, device),
-        kernel_unit_test(masks_and_lanes_are_as_stated, device),
+        cmocka_unit_test(contraction_is_off),
+        cmocka_unit_test(division_and_root_are_correctly_rounded),
+        cmocka_unit_test(sums_and_products_are_exact),
+        cmocka_unit_test(two_floats_keep_48_bits),
+        cmocka_unit_test(difference_of_products_survives_cancellation),
+        cmocka_unit_test(vectors_keep_their_bounds),
+        cmocka_unit_test(masks_and_lanes_are_as_stated),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    kernel_device_destroy(device);
-    return failed;
+    return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 }

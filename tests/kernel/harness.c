@@ -11,6 +11,7 @@ struct KernelDevice {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
+    bool cpu;
     bool correctly_rounded; // the device takes the option for correctly rounded divide and square root
     char name[256];
 };
@@ -64,6 +65,9 @@ KernelDevice *kernel_device_create(void)
     cl_device_fp_config config = 0;
     clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, NULL);
     device->correctly_rounded = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    cl_device_type type = 0;
+    clGetDeviceInfo(device->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    device->cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
     clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof device->name - 1, device->name, NULL);
     cl_int status;
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &status);
@@ -88,9 +92,23 @@ void kernel_device_destroy(KernelDevice *device)
     free(device);
 }
 
-const char *kernel_device_name(const KernelDevice *device)
+int kernel_run_tests(const struct CMUnitTest *tests, size_t count)
 {
-    return device->name;
+    KernelDevice *device = kernel_device_create();
+    if (!device)
+        return KERNEL_TEST_SKIP;
+    printf("device: %s\n", device->name);
+    struct CMUnitTest *with_device = calloc(count, sizeof *with_device);
+    int failed = (int)count;
+    if (with_device) {
+        memcpy(with_device, tests, count * sizeof *with_device);
+        for (size_t i = 0; i < count; i++)
+            with_device[i].initial_state = device;
+        failed = _cmocka_run_group_tests("kernel tests", with_device, count, NULL, NULL);
+    }
+    free(with_device);
+    kernel_device_destroy(device);
+    return failed;
 }
 
 static void print_build_log(const KernelDevice *device, cl_program program)
@@ -175,8 +193,12 @@ double kernel_run(KernelProgram *program, const char *kernel, size_t items, cons
     cl_mem buffers[MAX_ARGS] = { NULL };
     for (size_t i = 0; i < count; i++)
         buffers[i] = set_arg(device, created, (cl_uint)i, &args[i]);
+    // Groups of one on a CPU: there a driver keeps what all items of a group hold on the stack of a thread.
+    const size_t one = 1;
     const double start = now();
-    check(clEnqueueNDRangeKernel(device->queue, created, 1, NULL, &items, NULL, 0, NULL, NULL), kernel);
+    check(clEnqueueNDRangeKernel(device->queue, created, 1, NULL, &items, device->cpu ? &one : NULL, 0, NULL,
+                                 NULL),
+          kernel);
     check(clFinish(device->queue), "clFinish");
     const double seconds = now() - start;
     for (size_t i = 0; i < count; i++) {

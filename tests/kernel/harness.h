@@ -3,13 +3,8 @@
 //
 //   int main(void)
 //   {
-//       KernelDevice *device = kernel_device_create();
-//       if (!device)
-//           return KERNEL_TEST_SKIP;
-//       const struct CMUnitTest tests[] = { kernel_unit_test(my_test, device) };
-//       const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-//       kernel_device_destroy(device);
-//       return failed;
+//       const struct CMUnitTest tests[] = { cmocka_unit_test(my_test) };
+//       return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 //   }
 //   static void my_test(void **state)
 //   {
@@ -67,7 +62,10 @@ static inline KernelArg kernel_value(const void *value, size_t bytes)
 // on stdout, where there is none: the test then returns KERNEL_TEST_SKIP.
 KernelDevice *kernel_device_create(void);
 void kernel_device_destroy(KernelDevice *device);
-const char *kernel_device_name(const KernelDevice *device);
+
+// Runs count tests, each with such a device as its *state. What main returns: the number of tests that
+// failed, or KERNEL_TEST_SKIP.
+int kernel_run_tests(const struct CMUnitTest *tests, size_t count);
 
 // Builds source with -DLANES=lanes and kernels/ as the include folder, with the product's options.
 // A failed build prints the log and fails the running test. Further options may be NULL.

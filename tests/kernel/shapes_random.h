@@ -22,8 +22,12 @@ typedef struct Family {
     bool giant;
 } Family;
 
-// A shape of the family under a random map, from millionths to millions in size.
-Placed random_placed(const Family *family, uint64_t *state);
+enum { FAMILY_COUNT = 13 };
+extern const Family shape_families[FAMILY_COUNT];
+
+// Fills `count` shapes of the family under random maps, from millionths to millions in size, and what they
+// are baked to.
+void random_placed(const Family *family, Placed *placed, Primitive *primitives, int count, uint64_t *state);
 
 // Adds a ray from the origin of space, around the shape or within it, aimed at its neighbourhood: surface,
 // edges, axes; some along an axis of space, some of any length.

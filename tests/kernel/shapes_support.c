@@ -118,7 +118,13 @@ static const struct {
     {"HAS_TRIANGLE", PRIMITIVE_TRIANGLE},
 };
 
-KernelProgram *shapes_program(KernelDevice *device, int kind, int lanes)
+bool shapes_long_run(void)
+{
+    const char *text = getenv("CLRT_TEST_LONG");
+    return text && *text && strcmp(text, "0") != 0;
+}
+
+KernelProgram *shapes_program_of(KernelDevice *device, const char *text, int kind, int lanes)
 {
     char options[1024] = "-Werror -DHAS_UV=1";
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i) {
@@ -126,7 +132,17 @@ KernelProgram *shapes_program(KernelDevice *device, int kind, int lanes)
         snprintf(options + used, sizeof options - used, " -D%s=%d", kinds[i].macro,
                  kind < 0 || kind == kinds[i].kind);
     }
-    return kernel_program_create_with(device, source, lanes, options);
+    return kernel_program_create_with(device, text, lanes, options);
+}
+
+KernelProgram *shapes_program(KernelDevice *device, int kind, int lanes)
+{
+    return shapes_program_of(device, source, shapes_long_run() ? kind : -1, lanes);
+}
+
+KernelProgram *shapes_program_alone(KernelDevice *device, int kind, int lanes)
+{
+    return shapes_program_of(device, source, kind, lanes);
 }
 
 void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primitive *primitives, size_t count)

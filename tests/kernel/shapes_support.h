@@ -38,8 +38,17 @@ void ray_table_add_self(RayTable *table, int primitive, const float org[3], cons
 float ray_number(const RayTable *table, size_t i, int column);
 float hit_number(const RayTable *table, size_t i, int column);
 
-// A program with only the given kind (PRIMITIVE_X) present; kind -1: every kind.
+// Whether CLRT_TEST_LONG is set, to anything but 0: all rays, all widths, and a program for each kind alone.
+// Without it a test has fewer rays and one program for all shapes, which every test finds in the driver's
+// cache once one has run: compiling is most of what these tests cost.
+bool shapes_long_run(void);
+// A program that knows the kind (PRIMITIVE_X): that kind alone in the long run, otherwise every kind; -1:
+// every kind in any case.
 KernelProgram *shapes_program(KernelDevice *device, int kind, int lanes);
+// The same with that kind alone in any case.
+KernelProgram *shapes_program_alone(KernelDevice *device, int kind, int lanes);
+// A program of other text with one kind, or with -1 all.
+KernelProgram *shapes_program_of(KernelDevice *device, const char *text, int kind, int lanes);
 // Fills table->hits. All primitives are of one kind where the program has only one.
 void shapes_run(KernelProgram *program, int lanes, RayTable *table, const Primitive *primitives,
                 size_t count);
@@ -69,7 +78,8 @@ typedef struct Answer {
 Primitive bake_at(const Shape *shape, Vec3 shift);
 // Adds a ray at the primitive of the same index.
 void ray_table_add_next(RayTable *table, Vec3 org, Vec3 dir);
-// Shoots the rays at lanes 1 and 8, compares with the answers and prints one line each name.
+// Shoots the rays at 8 lanes, in the long run also at 1, compares with the answers and prints one line each
+// name.
 void expect_answers(KernelDevice *device, int kind, RayTable *table, const Primitive *primitives,
                     const Answer *answers);
 

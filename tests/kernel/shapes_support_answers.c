@@ -21,7 +21,7 @@ void ray_table_add_next(RayTable *table, Vec3 o, Vec3 d)
 void expect_answers(KernelDevice *device, int kind, RayTable *table, const Primitive *primitives,
                     const Answer *answers)
 {
-    for (int lanes = 1; lanes <= 8; lanes *= 8) {
+    for (int lanes = shapes_long_run() ? 1 : 8; lanes <= 8; lanes *= 8) {
         KernelProgram *program = shapes_program(device, kind, lanes);
         shapes_run(program, lanes, table, primitives, table->count);
         kernel_program_destroy(program);
@@ -30,7 +30,7 @@ void expect_answers(KernelDevice *device, int kind, RayTable *table, const Primi
             const Answer *a = &answers[i];
             const double off = isinf(a->exact) ? (isinf(t) ? 0 : INFINITY) : ulps_between(a->exact, t);
             const bool again = i > 0 && a->name == a[-1].name;
-            if (lanes == 1 && !again)
+            if (lanes == 8 && !again)
                 print_message("  %-44s t %-14.10g %.2f ulp\n", a->name, t, off);
             assert_true(off <= a->ulps);
         }

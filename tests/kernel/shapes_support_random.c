@@ -2,6 +2,22 @@
 
 #include <math.h>
 
+const Family shape_families[FAMILY_COUNT] = {
+    {"sphere", SHAPE_SPHERE, PRIMITIVE_SPHERE, false, false, false},
+    {"giant sphere", SHAPE_SPHERE, PRIMITIVE_GIANT_SPHERE, false, false, true},
+    {"ellipsoid", SHAPE_SPHERE, PRIMITIVE_ELLIPSOID, true, false, false},
+    {"plane", SHAPE_PLANE, PRIMITIVE_PLANE, true, false, false},
+    {"box", SHAPE_BOX, PRIMITIVE_BOX, true, false, false},
+    {"tetrahedron", SHAPE_TETRAHEDRON, PRIMITIVE_TETRAHEDRON, true, false, false},
+    {"disk", SHAPE_DISK, PRIMITIVE_DISK, true, false, false},
+    {"cylinder", SHAPE_CYLINDER, PRIMITIVE_CYLINDER, true, false, false},
+    {"open cylinder", SHAPE_CYLINDER, PRIMITIVE_CYLINDER, true, true, false},
+    {"cone", SHAPE_CONE, PRIMITIVE_CONE, true, false, false},
+    {"open cone", SHAPE_CONE, PRIMITIVE_CONE, true, true, false},
+    {"torus", SHAPE_TORUS, PRIMITIVE_TORUS, true, false, false},
+    {"triangle", SHAPE_TRIANGLE, PRIMITIVE_TRIANGLE, true, false, false},
+};
+
 static Vec3 random_vec(uint64_t *state, double extent)
 {
     const double x = random_in(state, -extent, extent), y = random_in(state, -extent, extent);
@@ -79,7 +95,7 @@ static Placed random_shape(const Family *family, uint64_t *state)
     return p;
 }
 
-Placed random_placed(const Family *family, uint64_t *state)
+static Placed random_place(const Family *family, uint64_t *state)
 {
     Placed p = random_shape(family, state);
     const double scale = random_scale(state, -6, 6);
@@ -101,6 +117,18 @@ Placed random_placed(const Family *family, uint64_t *state)
     }
     p.inverse = real_map_inverse(&p.map);
     return p;
+}
+
+void random_placed(const Family *family, Placed *placed, Primitive *primitives, int count, uint64_t *state)
+{
+    for (int i = 0; i < count; ++i) {
+        BakedBounds bounds;
+        Error error;
+        do {
+            placed[i] = random_place(family, state);
+            assert_true(bake_shape(&placed[i].shape, &placed[i].map, &primitives[i], &bounds, &error));
+        } while ((int)primitives[i].kind != family->primitive);
+    }
 }
 
 // A point of the shape's neighbourhood in space, often near its surface or edges.

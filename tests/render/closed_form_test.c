@@ -1,5 +1,5 @@
-// Pictures whose every value is known: coverage of pixels by an edge, mirrors and panes that face each other, and
-// light that adds up.
+// Pictures whose every value is known: coverage of pixels by an edge, mirrors and panes that face each other,
+// and light that adds up.
 #include "support.h"
 
 #include <float.h>
@@ -45,8 +45,8 @@ static void test_facing_mirrors(void **state)
     }
 }
 
-// Two panes that mirror and transmit before a wall that shines: t^2 / (1 - r^2). One ray stays in flight and one
-// is parked at every depth.
+// Two panes that mirror and transmit before a wall that shines: t^2 / (1 - r^2). One ray stays in flight and
+// one is parked at every depth.
 static void test_panes(void **state)
 {
     static const f64 cases[][2] = {{0.5, 0.5}, {0.75, 0.25}, {0.125, 0.875}};
@@ -116,7 +116,8 @@ static Errors coverage_errors(Device *device, u32 samples, u32 seed)
     static const Point triangle[3] = {{2.3, 21.7}, {29.2, 16.1}, {11.6, 1.9}};
     char *text = text_of("image { size %d %d samples %u seed %u }\nambient 0\n"
                          "camera { position 0 0 5 look_at 0 0 0 orthographic %d }\n"
-                         "material m phong { diffuse 0 emission 0.1 }\ntriangle { vertices", W, H, samples, seed, H);
+                         "material m phong { diffuse 0 emission 0.1 }\ntriangle { vertices",
+                         W, H, samples, seed, H);
     for (int i = 0; i < 3; i++)
         text_append(&text, " %.17g %.17g 0", triangle[i].x - W / 2.0, H / 2.0 - triangle[i].y);
     text_append(&text, " material m }\n");
@@ -186,7 +187,8 @@ static Picture lit_by(Device *device, u32 first, u32 last, bool shadows)
     for (u32 i = first; i < last; i++) {
         const f64 angle = 0.7 * i, x = 5 * cos(angle), z = 5 * sin(angle);
         if (i % 3 == 0)
-            text_append(&text, "light point { position %.3f 4 %.3f intensity 0.%u 0.2 0.1 }\n", x, z, i % 9 + 1);
+            text_append(&text, "light point { position %.3f 4 %.3f intensity 0.%u 0.2 0.1 }\n", x, z,
+                        i % 9 + 1);
         else if (i % 3 == 1)
             text_append(&text, "light directional { direction %.3f -3 %.3f intensity 0.1 0.%u 0.2 }\n", x, z,
                         i % 9 + 1);

@@ -25,8 +25,8 @@ static void test_nothing(void **state)
     expect_text_color(*state, "image { size 37 21 }\n", 0, 0, 0);
     expect_text_color(*state, "image { size 37 21 }\nbackground 0.25 0.5 2\n", 0.25f, 0.5f, 2);
     expect_text_color(*state, "image { size 1 1 }\nbackground 0.25 0.5 2\n", 0.25f, 0.5f, 2);
-    expect_text_color(*state, "image { size 1 1 }\nbackground 0.1 0.5 2\nlight point { position 0 0 0 }\n", 0.1f,
-                      0.5f, 2);
+    expect_text_color(*state, "image { size 1 1 }\nbackground 0.1 0.5 2\nlight point { position 0 0 0 }\n",
+                      0.1f, 0.5f, 2);
     expect_text_color(*state, "image { size 65536 1 }\nbackground 0.25 0.5 2\n", 0.25f, 0.5f, 2);
     expect_text_color(*state, "image { size 1 65536 }\nbackground 0.25 0.5 2\n", 0.25f, 0.5f, 2);
 }
@@ -42,7 +42,8 @@ static void test_behind(void **state)
 static void test_one_pixel(void **state)
 {
     const char *format = "image { size %u %u }\nbackground 1\nambient 0.5\n"
-                         "material m phong { ambient 0.5 0.25 1 }\nsphere { center 0 0 0 radius 1 material m }\n"
+                         "material m phong { ambient 0.5 0.25 1 }\n"
+                         "sphere { center 0 0 0 radius 1 material m }\n"
                          "plane { point 0 -2 0 normal 0 1 0 }\n";
     static const u32 sizes[][2] = {{1, 1}, {2, 1}, {1, 2}, {16, 16}, {17, 15}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
@@ -56,7 +57,8 @@ static void test_one_pixel(void **state)
 static void test_long(void **state)
 {
     const char *format = "image { size %u %u }\nbackground 1\nambient 0.5\ncamera { fov %g }\n"
-                         "material m phong { ambient 0.5 0.25 1 }\nsphere { center 0 0 -4 radius 1 material m }\n"
+                         "material m phong { ambient 0.5 0.25 1 }\n"
+                         "sphere { center 0 0 -4 radius 1 material m }\n"
                          "plane { point 0 -2 0 normal 0 1 0 }\n";
     char *text = text_of(format, 65536u, 1u, 0.01);
     Picture row = render_text(*state, text, NULL);
@@ -66,12 +68,13 @@ static void test_long(void **state)
     for (u32 x = 0; x < 65536; x++) {
         const f32 *pixel = pixel_at(&row, x, 0);
         const bool hit = pixel[0] == 0.25f;
-        assert_true(hit ? pixel[1] == 0.125f && pixel[2] == 0.5f : pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1);
+        const f32 sphere[3] = {0.25f, 0.125f, 0.5f}, background[3] = {1, 1, 1};
+        assert_memory_equal(pixel, hit ? sphere : background, sizeof sphere);
         hits += hit;
         assert_true(hit == (*pixel_at(&row, 65535 - x, 0) == 0.25f));
     }
     // The sphere's edge is seen under asin(1/4).
-    const f64 half = tan(asin(0.25)) / (2 * k) * 1; // in pixels; a pixel is 2k wide
+    const f64 half = tan(asin(0.25)) / (2 * k); // in pixels; a pixel is 2k wide
     assert_true(fabs(hits / 2.0 - half) <= 1);
     const RenderHow crop = {.left = 65000, .width = 536, .height = 1};
     text = text_of(format, 65536u, 1u, 0.01);
@@ -97,7 +100,8 @@ static void test_long(void **state)
 }
 
 static const char hall[] =
-    "image { size 40 30 }\ncamera { position 0 0.5 3 look_at 0 0.25 0 }\nambient 0.25\nbackground 0.5 0.75 1\n"
+    "image { size 40 30 }\ncamera { position 0 0.5 3 look_at 0 0.25 0 }\nambient 0.25\n"
+    "background 0.5 0.75 1\n"
     "light point { position 2 4 3 }\n"
     "material m phong { diffuse 0.5 0.25 0.125 %s }\n"
     "sphere { center -0.6 0 0 radius 0.6 material m }\nsphere { center 0.7 0 0.25 radius 0.5 material m }\n"
@@ -138,13 +142,14 @@ static void test_depth_64(void **state)
 // The deepest path there is: a ray that runs between mirrors, and the stack of what it parks on the way.
 static void test_deepest_path(void **state)
 {
-    Picture picture = render_text(*state, "image { size 1 1 }\nambient 0\nrender { max_depth 64 min_weight 0 }\n"
-                                          "material m phong { diffuse 0 reflect 1 transmit 0.5 ior 1 emission 1 }\n"
-                                          "material end phong { diffuse 0 emission 1 }\n"
-                                          "plane { point 0 0 -1 normal 0 0 1 material m }\n"
-                                          "plane { point 0 0 1 normal 0 0 -1 material m }\n"
-                                          "plane { point 0 0 -2 normal 0 0 1 material end }\n"
-                                          "plane { point 0 0 2 normal 0 0 -1 material end }\n", NULL);
+    const char *scene = "image { size 1 1 }\nambient 0\nrender { max_depth 64 min_weight 0 }\n"
+                        "material m phong { diffuse 0 reflect 1 transmit 0.5 ior 1 emission 1 }\n"
+                        "material end phong { diffuse 0 emission 1 }\n"
+                        "plane { point 0 0 -1 normal 0 0 1 material m }\n"
+                        "plane { point 0 0 1 normal 0 0 -1 material m }\n"
+                        "plane { point 0 0 -2 normal 0 0 1 material end }\n"
+                        "plane { point 0 0 2 normal 0 0 -1 material end }\n";
+    Picture picture = render_text(*state, scene, NULL);
     // 65 mirrors shine 1 each; 64 of them let one ray through that sees half of the light outside.
     expect_color(&picture, 65 + 32, 65 + 32, 65 + 32);
     assert_true(picture.stats.rays[2] == 64 && picture.stats.rays[3] == 64);

@@ -1,6 +1,6 @@
-// What a scene does not use costs nothing. The program of a small scene with each feature, and of one without it,
-// is preprocessed as a device's compiler would do it. In the functions that the kernel can reach there is no
-// word of a feature that the scene lacks, and the kernel has just the arguments that its features need. No
+// What a scene does not use costs nothing. The program of a small scene with each feature, and of one without
+// it, is preprocessed as a device's compiler would do it. In the functions that the kernel can reach there is
+// no word of a feature that the scene lacks, and the kernel has just the arguments that its features need. No
 // device takes part.
 #include "support.h"
 
@@ -12,7 +12,8 @@
 
 enum { FUNCTIONS_MAX = 600, PROGRAMS = 2 * FEATURE_SCENE_COUNT };
 
-// Texts that only the code of a feature has. Those that begin and end as names do are looked for as whole names.
+// Texts that only the code of a feature has. Those that begin and end as names do are looked for as whole
+// names.
 static const struct {
     Feature feature;
     const char *words[3];
@@ -217,7 +218,8 @@ static void find_reached(ProgramText *program)
 static ProgramText program_make(const char *scene)
 {
     Layout *layout = layout_of(scene);
-    ProgramText program = {.features = layout->features, .functions = calloc(FUNCTIONS_MAX, sizeof(Function))};
+    ProgramText program = {.features = layout->features};
+    program.functions = calloc(FUNCTIONS_MAX, sizeof *program.functions);
     layout_destroy(layout);
     assert_non_null(program.functions);
     program.text = preprocess(program.features);
@@ -298,8 +300,8 @@ static void test_arguments(void **state)
     }
 }
 
-// What a feature adds is what the program grows by; where the scene without it has features of its own instead
-// (another camera, another texture), the two sizes stand beside each other.
+// What a feature adds is what the program grows by; where the scene without it has features of its own
+// instead (another camera, another texture), the two sizes stand beside each other.
 static void test_sizes(void **state)
 {
     const ProgramText *programs = *state;

@@ -15,8 +15,8 @@ static inline v3 load3(global const real *from, uint n, uint column, uint at)
 }
 
 // All primitives that rays can meet, each with the instance that it is seen through.
-static uint search_all(const Hierarchy *scene, global const int *pairs, uint pair_count, const BatchRays *rays,
-                       BatchHits *hits, uint mask, bool any_hit, bool opaque_only)
+static uint search_all(const Hierarchy *scene, global const int *pairs, uint pair_count,
+                       const BatchRays *rays, BatchHits *hits, uint mask, bool any_hit, bool opaque_only)
 {
     BatchRays inner;
     int entered = NO_HIT;
@@ -29,15 +29,16 @@ static uint search_all(const Hierarchy *scene, global const int *pairs, uint pai
             enter_instance(&map, rays, batch_mask(BATCH), &inner);
             entered = instance;
         }
-        const uint found = test_primitive(scene, instance < 0 ? rays : &inner, hits, mask, primitive, instance);
+        const BatchRays *seen = instance < 0 ? rays : &inner;
+        const uint found = test_primitive(scene, seen, hits, mask, primitive, instance);
         if (any_hit)
             mask &= ~found;
     }
     return mask;
 }
 
-// n: a multiple of BATCH. pair_count 0: by the hierarchy. Step by step each ray goes on behind what it has met,
-// as shadow rays do. found: primitive and instance of each step and ray.
+// n: a multiple of BATCH. pair_count 0: by the hierarchy. Step by step each ray goes on behind what it has
+// met, as shadow rays do. found: primitive and instance of each step and ray.
 kernel void search(global const Primitive *primitives, global const PrimitiveInfo *infos,
                    global const BvhNode *nodes, uint plane_count, uint root, global const int *pairs,
                    uint pair_count, global const real *rays_in, global const int *selves, uint n, uint steps,

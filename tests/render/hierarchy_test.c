@@ -1,281 +1,21 @@
 // The hierarchy changes no hit: random scenes of every kind of shape, and of all of them with instances, are
 // searched by the traversal and by a test of every primitive. Both must name the same primitive and instance
-// with the same bits of t, for closest hits, for the hits behind them and for any hit; for batches of vectors and
-// for single rays; for rays from anywhere, along the axes, and from the surfaces.
-#include "support.h"
+// with the same bits of t, for closest hits, for the hits behind them and for any hit; for batches of vectors
+// and for single rays; for rays from anywhere, along the axes, and from the surfaces.
+#include "hierarchy_support.h"
 
 #include <math.h>
 
-#include "device/program.h"
-
-enum { RAYS = 51200, STEPS = 3, SHAPES = 36, COLUMNS = 7 };
-
-typedef struct Search {
-    Device *device;
-    Program *program;
-    Kernel *search, *bounce;
-    u32 batch, lanes;
-} Search;
-
-// The scene and the rays of a test, on the device.
-typedef struct Space {
-    Layout *layout;
-    Buffer *primitives, *infos, *nodes, *materials, *extras, *pairs;
-    u32 pair_count;
-    Buffer *rays, *selves, *t, *found;
-} Space;
-
-typedef struct Answer {
-    f32 *t;     // STEPS * RAYS
-    i32 *found; // primitive and instance of each
-} Answer;
+enum { SHAPES = 36 };
 
 typedef struct Devices {
     Device *device;
     Search vectors, single;
 } Devices;
 
-#define CHECK(call)                                                                                          \
-    do {                                                                                                     \
-        Error error = {0};                                                                                   \
-        if (!(call))                                                                                         \
-            fail_msg("%s: %s", #call, error.text);                                                           \
-    } while (0)
-
-static Search search_create(Device *device, u32 lanes, u32 batch)
-{
-    Search search = {.device = device, .batch = batch, .lanes = lanes};
-    Error error = {0};
-    static char *source; // outlives the programs
-    if (!source)
-        source = text_of_file(CLRT_SOURCE "/tests/render/hierarchy.cl");
-    char *options = text_of("-w -I " CLRT_SOURCE "/kernels -DLANES=%u -DBATCH=%u -DGROUP=1%s", lanes, batch,
-                            device_info(device)->exact_divide ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
-    for (Feature f = 0; f < FEATURE_COUNT; f++) {
-        const bool textures = f == FEATURE_UV || f == FEATURE_CHECKER || f == FEATURE_CHECKER3D;
-        text_append(&options, " -DHAS_%s=%d", feature_name(f), !textures);
-    }
-    search.program = program_create(device, source, strlen(source), options, &error);
-    if (!search.program)
-        fail_msg("%s", error.text);
-    search.search = kernel_create(search.program, "search", &error);
-    search.bounce = kernel_create(search.program, "bounce", &error);
-    assert_true(search.search && search.bounce);
-    free(options);
-    return search;
-}
-
-static void search_destroy(Search *search)
-{
-    kernel_destroy(search->search);
-    kernel_destroy(search->bounce);
-    program_destroy(search->program);
-}
-
-// Adds the primitives of the leaves below node, met through instance.
-static void list_leaves(const Layout *layout, u32 node, i32 instance, i32 *pairs, u32 *count)
-{
-    for (int slot = 0; slot < BVH_WIDTH; slot++) {
-        const BvhNode *n = &layout->nodes[node];
-        if (!(n->lower_x[slot] <= n->upper_x[slot]))
-            continue;
-        if (n->child[slot] >= 0) {
-            list_leaves(layout, (u32)n->child[slot], instance, pairs, count);
-            continue;
-        }
-        const u32 leaf = ~(u32)n->child[slot];
-        for (u32 i = leaf >> 4; i < (leaf >> 4) + (leaf & 15u); i++) {
-            const Primitive *primitive = &layout->primitives[i];
-            if ((primitive->kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE) {
-                u32 root;
-                memcpy(&root, &primitive->p0, sizeof root);
-                list_leaves(layout, root, (i32)i, pairs, count);
-                continue;
-            }
-            assert_true(*count < 4096);
-            pairs[2 * *count] = (i32)i;
-            pairs[2 * (*count)++ + 1] = instance;
-        }
-    }
-}
-
-static Buffer *filled(Device *device, const char *name, const void *data, u64 bytes)
-{
-    Buffer *buffer;
-    CHECK((buffer = buffer_create(device, name, bytes, &error)) != NULL);
-    if (bytes)
-        CHECK(buffer_upload(buffer, 0, data, bytes, &error));
-    return buffer;
-}
-
-static Space space_create(Device *device, const char *scene)
-{
-    Space s = {.layout = layout_of(scene)};
-    const Layout *l = s.layout;
-    i32 *pairs = malloc(2 * 4096 * sizeof *pairs);
-    assert_non_null(pairs);
-    for (u32 i = 0; i < l->plane_count; i++) {
-        pairs[2 * s.pair_count] = (i32)i;
-        pairs[2 * s.pair_count++ + 1] = -1;
-    }
-    if (l->root != NO_INDEX)
-        list_leaves(l, l->root, -1, pairs, &s.pair_count);
-    assert_true(s.pair_count > 0);
-    s.pairs = filled(device, "pairs", pairs, 2 * s.pair_count * sizeof *pairs);
-    free(pairs);
-    s.primitives = filled(device, "primitives", l->primitives, l->primitive_count * sizeof *l->primitives);
-    s.infos = filled(device, "infos", l->infos, l->primitive_count * sizeof *l->infos);
-    s.nodes = filled(device, "nodes", l->nodes, l->node_count * sizeof *l->nodes);
-    s.materials = filled(device, "materials", l->materials, l->material_count * sizeof *l->materials);
-    s.extras = filled(device, "extras", l->extras, l->extra_count * sizeof *l->extras);
-    CHECK((s.rays = buffer_create(device, "rays_in", COLUMNS * RAYS * sizeof(f32), &error)) != NULL);
-    CHECK((s.selves = buffer_create(device, "selves", 2 * RAYS * sizeof(i32), &error)) != NULL);
-    CHECK((s.t = buffer_create(device, "t", STEPS * RAYS * sizeof(f32), &error)) != NULL);
-    CHECK((s.found = buffer_create(device, "found", 2 * STEPS * RAYS * sizeof(i32), &error)) != NULL);
-    return s;
-}
-
-static void space_destroy(Space *s)
-{
-    Buffer *buffers[] = {s->primitives, s->infos, s->nodes, s->materials, s->extras,
-                         s->pairs,      s->rays,  s->selves, s->t,        s->found};
-    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
-        buffer_destroy(buffers[i]);
-    layout_destroy(s->layout);
-}
-
-static f32 snapped(u64 *seed, f64 range)
-{
-    const f64 x = random_in(seed, -range, range);
-    return (f32)(random_unit(seed) < 0.5 ? floor(2 * x) / 2 : x);
-}
-
-static void random_direction(u64 *seed, f64 d[3])
-{
-    f64 squared;
-    do {
-        squared = 0;
-        for (int k = 0; k < 3; k++) {
-            d[k] = random_in(seed, -1, 1);
-            squared += d[k] * d[k];
-        }
-    } while (squared > 1 || squared < 1e-3);
-    for (int k = 0; k < 3; k++)
-        d[k] /= sqrt(squared);
-}
-
-// Where the scene stands in render space.
-typedef struct Place {
-    const char *camera;
-    f32 at[3];
-} Place;
-
 static const Place near_place = {"", {0, 0, 0}};
 // So far away that a place is known to 2^-12 only.
 static const Place far_place = {"camera { position -3000 512 1024 look_at 0 0 0 }\n", {3000, -512, -1024}};
-
-// A random point on an edge, a corner or a face of the box of a random leaf of the top-level hierarchy, where the
-// least error of a box shows.
-static void random_box_point(const Layout *layout, u64 *seed, f64 point[3])
-{
-    u32 low = layout->root, high = layout->node_count; // the nodes of the scene come first
-    for (u32 i = 0; i < layout->primitive_count; i++) {
-        u32 root;
-        memcpy(&root, &layout->primitives[i].p0, sizeof root);
-        if ((layout->primitives[i].kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE && root < high)
-            high = root;
-    }
-    for (;;) {
-        const BvhNode *node = &layout->nodes[low + (u32)((high - low) * random_unit(seed))];
-        const int slot = (int)(BVH_WIDTH * random_unit(seed));
-        if (!(node->lower_x[slot] <= node->upper_x[slot]) || node->child[slot] >= 0)
-            continue;
-        const f64 box[2][3] = {{node->lower_x[slot], node->lower_y[slot], node->lower_z[slot]},
-                               {node->upper_x[slot], node->upper_y[slot], node->upper_z[slot]}};
-        for (int k = 0; k < 3; k++) {
-            const f64 share = random_unit(seed);
-            point[k] = share < 0.4 ? box[0][k]
-                       : share < 0.8 ? box[1][k] : box[0][k] + (box[1][k] - box[0][k]) * random_unit(seed);
-        }
-        return;
-    }
-}
-
-static void normalize(f64 d[3])
-{
-    const f64 length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int k = 0; k < 3; k++)
-        d[k] /= length;
-}
-
-// A quarter of the rays goes along an axis, another one within a coordinate plane, half of the rest anywhere and the
-// others to the borders of boxes. Half of the coordinates are halves, as are those of half of the shapes, so that
-// rays run along faces and edges.
-static void make_rays(f32 *rays, i32 *selves, const Layout *layout, const Place *place, u64 seed)
-{
-    for (u32 i = 0; i < RAYS; i++) {
-        f64 dir[3], target[3];
-        random_direction(&seed, dir);
-        const int axis = (int)(3 * random_unit(&seed));
-        if (i % 8 < 4)
-            dir[axis] = copysign(0, dir[axis]);
-        if (i % 8 < 2)
-            dir[(axis + 1) % 3] = copysign(0, dir[(axis + 1) % 3]);
-        for (u32 k = 0; k < 3; k++)
-            rays[k * RAYS + i] = place->at[k] + snapped(&seed, 9);
-        if (i % 8 >= 6) {
-            random_box_point(layout, &seed, target);
-            for (u32 k = 0; k < 3; k++)
-                dir[k] = target[k] - (f64)rays[k * RAYS + i];
-        }
-        normalize(dir);
-        for (u32 k = 0; k < 3; k++)
-            rays[(3 + k) * RAYS + i] = (f32)dir[k];
-        // Most rays have no end; that of the others is where something may just be.
-        rays[6 * RAYS + i] = i % 3 ? INFINITY : (f32)random_in(&seed, 0, 12);
-        selves[i] = selves[RAYS + i] = -1;
-    }
-}
-
-static Answer answer_create(void)
-{
-    Answer answer = {malloc(STEPS * RAYS * sizeof(f32)), malloc(2 * STEPS * RAYS * sizeof(i32))};
-    assert_true(answer.t && answer.found);
-    return answer;
-}
-
-static void answer_destroy(Answer *answer)
-{
-    free(answer->t);
-    free(answer->found);
-}
-
-static void launch(const Search *search, const Space *s, bool all, bool any_hit, bool opaque_only, u32 steps,
-                   Answer *answer)
-{
-    Kernel *k = search->search;
-    // What the kernel leaves alone (steps after the last hit) is the same everywhere.
-    CHECK(buffer_fill_u32(s->t, 0, 0, STEPS * RAYS * sizeof(f32), &error));
-    CHECK(buffer_fill_u32(s->found, 0, 0, 2 * STEPS * RAYS * sizeof(i32), &error));
-    CHECK(kernel_set_buffer(k, "primitives", s->primitives, &error));
-    CHECK(kernel_set_buffer(k, "infos", s->infos, &error));
-    CHECK(kernel_set_buffer(k, "nodes", s->nodes, &error));
-    CHECK(kernel_set_u32(k, "plane_count", s->layout->plane_count, &error));
-    CHECK(kernel_set_u32(k, "root", s->layout->root, &error));
-    CHECK(kernel_set_buffer(k, "pairs", s->pairs, &error));
-    CHECK(kernel_set_u32(k, "pair_count", all ? s->pair_count : 0, &error));
-    CHECK(kernel_set_buffer(k, "rays_in", s->rays, &error));
-    CHECK(kernel_set_buffer(k, "selves", s->selves, &error));
-    CHECK(kernel_set_u32(k, "n", RAYS, &error));
-    CHECK(kernel_set_u32(k, "steps", steps, &error));
-    CHECK(kernel_set_u32(k, "any_hit", any_hit, &error));
-    CHECK(kernel_set_u32(k, "opaque_only", opaque_only, &error));
-    CHECK(kernel_set_buffer(k, "t", s->t, &error));
-    CHECK(kernel_set_buffer(k, "found", s->found, &error));
-    CHECK(kernel_launch(k, RAYS / search->batch, 1, &error));
-    CHECK(buffer_download(s->t, 0, answer->t, STEPS * RAYS * sizeof(f32), &error));
-    CHECK(buffer_download(s->found, 0, answer->found, 2 * STEPS * RAYS * sizeof(i32), &error));
-}
 
 // Returns the number of hits.
 static u32 compare(const Space *s, const f32 *rays, const Answer *a, const Answer *b, bool any_hit,
@@ -294,8 +34,9 @@ static u32 compare(const Space *s, const f32 *rays, const Answer *a, const Answe
     if (differ) {
         const u32 ray = first % RAYS;
         const i32 kind = b->found[2 * first] < 0 ? -1 : (i32)s->layout->primitives[b->found[2 * first]].kind;
-        fail_msg("%s: %u of %u differ, the first in step %u: t %.9g and %.9g, primitives %d and %d, instances "
-                 "%d and %d, kind of the second %d; ray from %.9g %.9g %.9g towards %.9g %.9g %.9g to %.9g",
+        fail_msg("%s: %u of %u differ, the first in step %u: t %.9g and %.9g, primitives %d and %d, "
+                 "instances %d and %d, kind of the second %d; ray from %.9g %.9g %.9g towards %.9g %.9g %.9g "
+                 "to %.9g",
                  what, differ, STEPS * RAYS, first / RAYS, (f64)a->t[first], (f64)b->t[first],
                  a->found[2 * first], b->found[2 * first], a->found[2 * first + 1], b->found[2 * first + 1],
                  kind, (f64)rays[ray], (f64)rays[RAYS + ray], (f64)rays[2 * RAYS + ray],
@@ -305,56 +46,32 @@ static u32 compare(const Space *s, const f32 *rays, const Answer *a, const Answe
     return hits;
 }
 
-static void bounce(const Search *search, const Space *s, u64 seed)
-{
-    f32 *dirs = malloc(3 * RAYS * sizeof *dirs);
-    assert_non_null(dirs);
-    for (u32 i = 0; i < RAYS; i++) {
-        f64 d[3];
-        random_direction(&seed, d);
-        for (u32 k = 0; k < 3; k++)
-            dirs[k * RAYS + i] = (f32)d[k];
-    }
-    Kernel *k = search->bounce;
-    Buffer *buffer = filled(search->device, "dirs", dirs, 3 * RAYS * sizeof *dirs);
-    CHECK(kernel_set_buffer(k, "primitives", s->primitives, &error));
-    CHECK(kernel_set_buffer(k, "infos", s->infos, &error));
-    CHECK(kernel_set_buffer(k, "materials", s->materials, &error));
-    CHECK(kernel_set_buffer(k, "extras", s->extras, &error));
-    CHECK(kernel_set_u32(k, "n", RAYS, &error));
-    CHECK(kernel_set_buffer(k, "t", s->t, &error));
-    CHECK(kernel_set_buffer(k, "found", s->found, &error));
-    CHECK(kernel_set_buffer(k, "dirs", buffer, &error));
-    CHECK(kernel_set_buffer(k, "rays", s->rays, &error));
-    CHECK(kernel_set_buffer(k, "selves", s->selves, &error));
-    CHECK(kernel_launch(k, RAYS / search->lanes, 1, &error));
-    CHECK(device_finish(search->device, &error));
-    buffer_destroy(buffer);
-    free(dirs);
-}
-
 // Both ways to search, in both programs, for the rays on the device.
-static u32 compare_searches(const Devices *d, const Space *s, f32 *rays, const char *name)
+static u32 compare_searches(const Devices *d, const Space *s, const char *name)
 {
+    Error error = {0};
+    f32 *rays = malloc(COLUMNS * RAYS * sizeof *rays);
+    assert_non_null(rays);
     Answer all = answer_create(), other = answer_create();
-    CHECK(buffer_download(s->rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error));
-    launch(&d->vectors, s, true, false, false, STEPS, &all);
-    launch(&d->vectors, s, false, false, false, STEPS, &other);
+    must(buffer_download(s->rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error), &error);
+    search_run(&d->vectors, s, true, false, false, STEPS, &all);
+    search_run(&d->vectors, s, false, false, false, STEPS, &other);
     char *what = text_of("%s, closest, hierarchy against all", name);
     const u32 hits = compare(s, rays, &other, &all, false, what);
-    launch(&d->single, s, false, false, false, STEPS, &other);
+    search_run(&d->single, s, false, false, false, STEPS, &other);
     compare(s, rays, &other, &all, false, "the same, single rays");
     for (u32 opaque_only = 0; opaque_only < 2; opaque_only++) {
-        launch(&d->vectors, s, true, true, opaque_only, 1, &all);
-        launch(&d->vectors, s, false, true, opaque_only, 1, &other);
+        search_run(&d->vectors, s, true, true, opaque_only, 1, &all);
+        search_run(&d->vectors, s, false, true, opaque_only, 1, &other);
         compare(s, rays, &other, &all, true, "any hit");
-        launch(&d->single, s, false, true, opaque_only, 1, &other);
+        search_run(&d->single, s, false, true, opaque_only, 1, &other);
         compare(s, rays, &other, &all, true, "any hit, single rays");
     }
-    launch(&d->single, s, true, false, false, 1, &all); // and without the hierarchy, one step
-    launch(&d->vectors, s, false, false, false, 1, &other);
+    search_run(&d->single, s, true, false, false, 1, &all); // and without the hierarchy, one step
+    search_run(&d->vectors, s, false, false, false, 1, &other);
     compare(s, rays, &other, &all, false, "closest, vectors against all by single rays");
     free(what);
+    free(rays);
     answer_destroy(&all);
     answer_destroy(&other);
     return hits;
@@ -365,19 +82,13 @@ static void check_scene(const Devices *d, const char *name, const char *scene, c
     char *placed = text_of("%s%s", place->camera, scene);
     Space s = space_create(d->device, placed);
     free(placed);
-    f32 *rays = malloc(COLUMNS * RAYS * sizeof *rays);
-    i32 *selves = malloc(2 * RAYS * sizeof *selves);
-    assert_true(rays && selves);
-    make_rays(rays, selves, s.layout, place, seed);
-    CHECK(buffer_upload(s.rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error));
-    CHECK(buffer_upload(s.selves, 0, selves, 2 * RAYS * sizeof *selves, &error));
-    const u32 first = compare_searches(d, &s, rays, name);
-    bounce(&d->vectors, &s, seed); // t and found are those of closest hits
-    const u32 second = compare_searches(d, &s, rays, name);
-    print_message("%-28s %u primitives, %u rays, %u + %u hits\n", name, s.pair_count, 2 * RAYS, first, second);
+    space_aim(&s, place, seed);
+    const u32 first = compare_searches(d, &s, name);
+    search_bounce(&d->vectors, &s, seed); // t and found are those of closest hits
+    const u32 second = compare_searches(d, &s, name);
+    print_message("%-28s %u primitives, %u rays, %u + %u hits\n", name, s.pair_count, 2 * RAYS, first,
+                  second);
     assert_true(first > RAYS / 10 && second > RAYS / 20);
-    free(rays);
-    free(selves);
     space_destroy(&s);
 }
 
@@ -414,7 +125,8 @@ static void append_shape(char **text, const char *kind, u64 *seed)
                     random_in(seed, 0.01, 2), random_in(seed, 0.3, 3), -random_in(seed, 0.3, 2),
                     random_in(seed, 0, 90), a);
     else if (strcmp(kind, "plane") == 0)
-        text_append(&own, "plane { point %s normal %.4f %.4f %.4f", a, snapped(seed, 1), snapped(seed, 1), 1.25);
+        text_append(&own, "plane { point %s normal %.4f %.4f 1.25", a, (f64)snapped(seed, 1),
+                    (f64)snapped(seed, 1));
     else if (strcmp(kind, "box") == 0)
         text_append(&own, "box { center %s size %g %g %g", a, r, caps ? 1.0 : 0.001 * r, 2.0);
     else if (strcmp(kind, "tetrahedron") == 0)
@@ -425,8 +137,8 @@ static void append_shape(char **text, const char *kind, u64 *seed)
         text_append(&own, "cylinder { base 0 0 0 top 0 %g 0 radius %g caps %s translate %s", 2 * r, r,
                     caps ? "on" : "off", a);
     else if (strcmp(kind, "cone") == 0)
-        text_append(&own, "cone { base 0 0 0 top 1 %g 0.5 radius %g top_radius %g caps %s translate %s", 2 * r,
-                    r, random_unit(seed) < 0.5 ? 0.0 : 0.5, caps ? "on" : "off", a);
+        text_append(&own, "cone { base 0 0 0 top 1 %g 0.5 radius %g top_radius %g caps %s translate %s",
+                    2 * r, r, random_unit(seed) < 0.5 ? 0.0 : 0.5, caps ? "on" : "off", a);
     else if (strcmp(kind, "torus") == 0)
         text_append(&own, "torus { center %s axis %s major %g minor %g", a, caps ? "0 1 0" : "1 0.5 0.2", r,
                     caps ? 0.25 * r : r);
@@ -444,7 +156,8 @@ static void append_shape(char **text, const char *kind, u64 *seed)
     free(c);
 }
 
-static const char head[] = "material glass phong { transmit 0.9 }\nmaterial tinted phong { transmit 0 0.5 0 }\n";
+static const char head[] =
+    "material glass phong { transmit 0.9 }\nmaterial tinted phong { transmit 0 0.5 0 }\n";
 
 static const char *const kinds[] = {"sphere", "giant",    "ellipsoid", "plane", "box",     "tetrahedron",
                                     "disk",   "cylinder", "cone",      "torus", "triangle"};
@@ -492,13 +205,14 @@ static char *instanced_scene(void)
     append_mixture(&scene, &seed, 9, true);
     for (u32 i = 0; i < 3; i++) {
         char *at = point(&seed, 4);
-        text_append(&scene, "instance outer { matrix 1 0.3 0 0  0 1 0.2 0  0.1 0 1 0 rotate y %u translate %s }\n",
-                    90 * i, at);
+        text_append(&scene, "instance outer { matrix 1 0.3 0 0  0 1 0.2 0  0.1 0 1 0 rotate y %u "
+                            "translate %s }\n", 90 * i, at);
         text_append(&scene, "instance flat { rotate x %u translate %s material glass }\n", 45 * i, at);
         text_append(&scene, "instance single { translate %s }\n", at);
         free(at);
     }
-    text_append(&scene, "instance flat { translate 0 1 0 }\ninstance flat { translate 0 1 0 material glass }\n"
+    text_append(&scene, "instance flat { translate 0 1 0 }\n"
+                        "instance flat { translate 0 1 0 material glass }\n"
                         "box { min -1 1 -1 max 1 1.5 1 }\ninstance inner { scale 1e-3 translate 0 -1 0 }\n"
                         "instance inner { scale 1e3 }\n");
     return scene;
@@ -539,17 +253,13 @@ static void test_first_defined_wins(void **state)
         const bool instance = (s.layout->primitives[i].kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE;
         end = order + (instance ? 2 : 1) > end ? order + (instance ? 2 : 1) : end;
     }
-    f32 *rays = malloc(COLUMNS * RAYS * sizeof *rays);
-    i32 *selves = malloc(2 * RAYS * sizeof *selves);
-    assert_true(rays && selves && end % 2 == 0);
-    make_rays(rays, selves, s.layout, &near_place, 80);
-    CHECK(buffer_upload(s.rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error));
-    CHECK(buffer_upload(s.selves, 0, selves, 2 * RAYS * sizeof *selves, &error));
-    compare_searches(d, &s, rays, "everything twice");
+    assert_true(end % 2 == 0);
+    space_aim(&s, &near_place, 80);
+    compare_searches(d, &s, "everything twice");
     Answer answer = answer_create();
     const Search *searches[] = {&d->vectors, &d->single};
     for (u32 k = 0; k < 2; k++) {
-        launch(searches[k], &s, false, false, false, 2, &answer);
+        search_run(searches[k], &s, false, false, false, 2, &answer);
         u32 hits = 0;
         for (u32 i = 0; i < 2 * RAYS; i++) {
             if (answer.found[2 * i] < 0 || (i >= RAYS && answer.found[2 * (i - RAYS)] < 0))
@@ -569,8 +279,6 @@ static void test_first_defined_wins(void **state)
         assert_true(hits > RAYS / 2);
     }
     answer_destroy(&answer);
-    free(rays);
-    free(selves);
     free(once);
     free(scene);
     space_destroy(&s);

@@ -1,5 +1,5 @@
-// What may not change a picture: the unit of length (by powers of two not a bit of it), the place of the scene in
-// the world, and the hand of space, which mirrors it.
+// What may not change a picture: the unit of length (by powers of two not a bit of it), the place of the
+// scene in the world, and the hand of space, which mirrors it.
 #include "scenes.h"
 #include "support.h"
 
@@ -63,7 +63,8 @@ static const char scene_mirror[] =
     "material glass phong { diffuse 0 reflect 1 transmit 1 0.875 1 fresnel on }\n"
     "plane { point P(0 0 0) normal D(0 1 0) material a }\n"
     "sphere { center P(-1.5 0.75 0) radius ~0.75 material glass }\n"
-    "sphere { center L(0 0 0) radius ~1 scale 0.5 1 0.75 rotate A(0 0 1) 20 translate P(2.75 1 -1) material a }\n"
+    "sphere { center L(0 0 0) radius ~1 scale 0.5 1 0.75 rotate A(0 0 1) 20\n"
+    "    translate P(2.75 1 -1) material a }\n"
     "box { center L(0 0 0) size ~1 ~0.5 ~0.75 rotate A(0.25 1 0.5) 35 translate P(-3 0.5 1) material b }\n"
     "tetrahedron { vertices P(-1 0.5 1.5) P(0 0.5 1.25) P(-0.75 0.5 0.5) P(-0.5 1.5 1) material b }\n"
     "triangle { vertices P(-3 0.5 -3) P(-1 0.5 -3.5) P(-2 3 -3) normals D(0.25 0 1) D(0 0 1) D(0 0.5 1)\n"
@@ -72,12 +73,13 @@ static const char scene_mirror[] =
     "cylinder { base P(1 0 0.5) top P(1.25 1 0.25) radius ~0.375 material a }\n"
     "cone { base P(2.5 0 1.5) top P(2.25 1.25 1.5) radius ~0.5 top_radius ~0.125 caps off material b }\n"
     "torus { center P(0.5 0.5 -1) axis D(0.5 1 0.25) major ~0.75 minor ~0.25 material a }\n"
-    "object pair { sphere { center L(0 0.25 0) radius ~0.25 material glass } box { center L(0 0 0) size ~0.5 } }\n"
+    "object pair { sphere { center L(0 0.25 0) radius ~0.25 material glass }\n"
+    "    box { center L(0 0 0) size ~0.5 } }\n"
     "instance pair { scale 1 2 0.5 rotate A(1 1 0) 30 translate P(1 1 2.5) material b }\n";
 
 // Render space begins at the camera. Where coordinates stay exact in double, nothing at all is lost a million
-// units away; where they do not, the numbers are those of the scene up to a rounding of double. (The cells of the
-// toys stand in the world: they move on where the way is no multiple of two of them.)
+// units away; where they do not, the numbers are those of the scene up to a rounding of double. (The cells of
+// the toys stand in the world: they move on where the way is no multiple of two of them.)
 static void test_moved(void **state)
 {
     const char *const scenes[] = {scene_glass, scene_toys, scene_mirror};

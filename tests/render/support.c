@@ -113,8 +113,8 @@ void assert_same_picture(const Picture *a, const Picture *b, const char *what)
         }
     }
     if (different)
-        fail_msg("%s: %zu of %zu values differ; the first at pixel (%zu, %zu): %.9g and %.9g", what, different,
-                 3 * (size_t)a->width * a->height, first / 3 % a->width, first / 3 / a->width,
+        fail_msg("%s: %zu of %zu values differ; the first at pixel (%zu, %zu): %.9g and %.9g", what,
+                 different, 3 * (size_t)a->width * a->height, first / 3 % a->width, first / 3 / a->width,
                  (f64)a->rgb[first], (f64)b->rgb[first]);
 }
 

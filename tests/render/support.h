@@ -51,8 +51,8 @@ const f32 *pixel_at(const Picture *picture, u32 x, u32 y);
 // Fails the running test, with the first pixel that differs, unless all bits agree.
 void assert_same_picture(const Picture *a, const Picture *b, const char *what);
 
-// Values (channels) that differ by more than `tolerance` after clamping to [0, 1] and sRGB encoding, in levels
-// of 255.
+// Values (channels) that differ by more than `tolerance` after clamping to [0, 1] and sRGB encoding, in
+// levels of 255.
 u32 levels_apart(const Picture *a, const Picture *b, f64 tolerance);
 
 // printf into a new string; the caller's to free.
