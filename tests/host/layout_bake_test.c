@@ -322,7 +322,7 @@ static void coordinates_of_planes_are_whole_and_rest(void **state)
         bake_split_whole(places[i], &whole, &rest);
         assert_true(floor((f64)whole) == (f64)whole);
         // Small numbers on either side of 0 keep all their digits.
-        const f64 slack = fabs(places[i]) < 0.5 ? fabs(places[i]) * 0x1p-24 : fabs(places[i]) * 0x1p-40 + 0x1p-26;
+        const f64 x = fabs(places[i]), slack = x < 0.5 ? x * 0x1p-24 : x * 0x1p-40 + 0x1p-26;
         assert_true(fabs((f64)whole + (f64)rest - places[i]) <= slack);
     }
     const Shape plane = {.kind = SHAPE_PLANE, .as.plane = {{1, 2, 3}, {0, 1, 0}}};

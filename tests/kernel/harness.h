@@ -28,9 +28,6 @@
 
 enum { KERNEL_TEST_SKIP = 77 };
 
-// A test whose *state is the device.
-#define kernel_unit_test(function, device) cmocka_unit_test_prestate(function, device)
-
 typedef struct KernelDevice KernelDevice;
 typedef struct KernelProgram KernelProgram;
 

@@ -269,11 +269,6 @@ static void all_shapes(void **state)
 
 int main(void)
 {
-    KernelDevice *device = kernel_device_create();
-    if (!device)
-        return KERNEL_TEST_SKIP;
-    const struct CMUnitTest tests[] = {kernel_unit_test(all_shapes, device)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    kernel_device_destroy(device);
-    return failed;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_shapes)};
+    return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 }

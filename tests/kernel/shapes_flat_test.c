@@ -186,16 +186,11 @@ static void invalid_rays(void **state)
 
 int main(void)
 {
-    KernelDevice *device = kernel_device_create();
-    if (!device)
-        return KERNEL_TEST_SKIP;
     const struct CMUnitTest tests[] = {
-        kernel_unit_test(boxes, device),
-        kernel_unit_test(triangles, device),
-        kernel_unit_test(planes, device),
-        kernel_unit_test(invalid_rays, device),
+        cmocka_unit_test(boxes),
+        cmocka_unit_test(triangles),
+        cmocka_unit_test(planes),
+        cmocka_unit_test(invalid_rays),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    kernel_device_destroy(device);
-    return failed;
+    return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 }

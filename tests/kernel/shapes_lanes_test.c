@@ -56,11 +56,6 @@ static void same_bits(void **state)
 
 int main(void)
 {
-    KernelDevice *device = kernel_device_create();
-    if (!device)
-        return KERNEL_TEST_SKIP;
-    const struct CMUnitTest tests[] = {kernel_unit_test(same_bits, device)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    kernel_device_destroy(device);
-    return failed;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits)};
+    return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 }

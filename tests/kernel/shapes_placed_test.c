@@ -139,11 +139,6 @@ static void instances_keep_points_and_normals(void **state)
 
 int main(void)
 {
-    KernelDevice *device = kernel_device_create();
-    if (!device)
-        return KERNEL_TEST_SKIP;
-    const struct CMUnitTest tests[] = {kernel_unit_test(instances_keep_points_and_normals, device)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    kernel_device_destroy(device);
-    return failed;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(instances_keep_points_and_normals)};
+    return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 }

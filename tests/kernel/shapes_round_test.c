@@ -250,15 +250,10 @@ static void poles_and_seam(void **state)
 
 int main(void)
 {
-    KernelDevice *device = kernel_device_create();
-    if (!device)
-        return KERNEL_TEST_SKIP;
     const struct CMUnitTest tests[] = {
-        kernel_unit_test(spheres, device),        kernel_unit_test(giant_spheres, device),
-        kernel_unit_test(tori, device),           kernel_unit_test(round_solids, device),
-        kernel_unit_test(poles_and_seam, device),
+        cmocka_unit_test(spheres),        cmocka_unit_test(giant_spheres),
+        cmocka_unit_test(tori),           cmocka_unit_test(round_solids),
+        cmocka_unit_test(poles_and_seam),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    kernel_device_destroy(device);
-    return failed;
+    return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 }

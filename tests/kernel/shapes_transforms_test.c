@@ -288,16 +288,11 @@ static void outward_stays_outward(void **state)
 
 int main(void)
 {
-    KernelDevice *device = kernel_device_create();
-    if (!device)
-        return KERNEL_TEST_SKIP;
     const struct CMUnitTest tests[] = {
-        kernel_unit_test(normals_under_a_strong_scale, device),
-        kernel_unit_test(tiny_scales, device),
-        kernel_unit_test(mirrored_and_sheared_instances, device),
-        kernel_unit_test(outward_stays_outward, device),
+        cmocka_unit_test(normals_under_a_strong_scale),
+        cmocka_unit_test(tiny_scales),
+        cmocka_unit_test(mirrored_and_sheared_instances),
+        cmocka_unit_test(outward_stays_outward),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    kernel_device_destroy(device);
-    return failed;
+    return kernel_run_tests(tests, sizeof tests / sizeof *tests);
 }
