@@ -20,7 +20,7 @@ typedef struct Plan {
     u32 width;           // of the crop
     u32 band_rows;       // multiple of the tile's height, or all rows
     u32 groups;          // tiles in flight
-    u32 lights_per_pass; // 0 where no light casts shadows
+    u32 lights_per_pass; // at most LIGHTS_PER_PASS_MAX
     u32 real_fields, int_fields, pending_reals; // of a slot
     u32 slots_log2;      // of a pixel, see RenderParams
     bool samples;        // more than one
