@@ -38,12 +38,6 @@ static inline vf difference_of_products(vf a, vf b, vf c, vf d)
     return fma(a, b, -cd) - error;
 }
 
-static inline v3 v3_cross(v3 a, v3 b)
-{
-    return v3_make(difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
-                   difference_of_products(a.x, b.y, a.y, b.x));
-}
-
 // Zero or non-finite vectors give NaN; length within 3 rounding units of 1 otherwise (squares must not
 // overflow or underflow).
 static inline v3 v3_normalize(v3 a)
