@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "assets/assets.h"
 #include "base/clock.h"
 #include "cli/progress.h"
 #include "cli/stats.h"
@@ -57,6 +58,16 @@ static bool judge_scene(const Picture *picture, Error *error)
     return true;
 }
 
+// Reads what the scene names, unless it has errors already.
+static bool load_assets(Picture *picture, Error *error)
+{
+    const f64 start = clock_seconds();
+    const bool ok = diagnostics_error_count(picture->diagnostics) > 0 ||
+                    assets_load(picture->scene, picture->arena, picture->diagnostics, error);
+    picture->stats.load_seconds = clock_seconds() - start;
+    return ok;
+}
+
 static bool load_scene(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
@@ -74,13 +85,14 @@ static bool load_scene(Picture *picture, Error *error)
     if (sound)
         scene_check_support(picture->scene, picture->diagnostics); // more samples may need what is not there
     picture->stats.parse_seconds = clock_seconds() - start;
-    return judge_scene(picture, error);
+    return load_assets(picture, error) && judge_scene(picture, error);
 }
 
 static bool lay_out(Picture *picture, Error *error)
 {
     const f64 start = clock_seconds();
     picture->layout = layout_create(picture->scene, error);
+    assets_release(picture->scene); // the layout has what it needs of the meshes
     picture->stats.layout_seconds = clock_seconds() - start;
     return picture->layout != NULL;
 }
@@ -195,6 +207,7 @@ bool picture_make(const Options *options, Interrupt *interrupt, Error *error)
     interrupt_set_temporary(interrupt, NULL);
     device_close(picture.device);
     layout_destroy(picture.layout);
+    assets_release(picture.scene);
     device_list_destroy(picture.devices);
     diagnostics_destroy(picture.diagnostics);
     arena_destroy(picture.arena);

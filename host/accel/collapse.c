@@ -1,41 +1,73 @@
 #include "accel/collapse.h"
 
 #include <math.h>
-#include <stdlib.h>
+
+#include "base/memory.h"
+#include "shared/mesh.h"
+
+enum { TASK_LEAVES = 1024 }; // smaller subtrees are not worth a task
 
 typedef struct Collapse {
-    const BinaryNode *binary;
-    BvhNode *nodes;
-    u32 used, capacity;
-    u32 first_node, first_primitive;
+    const BvhInput *input;
+    const Item *items;
+    Bvh *bvh;
 } Collapse;
 
-// Opens the largest inner node among the children until eight are reached or only leaves are left.
-static int gather_children(const BinaryNode *binary, u32 root, u32 children[BVH_WIDTH])
+// Where the results of a subtree go.
+typedef struct Places {
+    u32 node, single, block;
+} Places;
+
+static bool is_leaf(const BinaryNode *node)
 {
-    int count = 1;
-    children[0] = root;
-    while (count < BVH_WIDTH) {
-        int largest = -1;
-        f32 largest_area = -1;
-        for (int i = 0; i < count; i++) {
-            const f32 area = box_half_area(&binary[children[i]].box);
-            // Also where the area is no number (infinite times 0): the root at least must be opened.
-            if (binary[children[i]].count == 0 && !(area <= largest_area)) {
-                largest = i;
-                largest_area = area;
-            }
-        }
-        if (largest < 0)
-            break;
-        const u32 opened = children[largest];
-        children[largest] = opened + 1;
-        children[count++] = binary[opened].right;
-    }
-    return count;
+    return node->choices == 0;
 }
 
-static void set_slot(BvhNode *node, int slot, const Box *box, i32 child)
+static bool is_large(const BinaryNode *node)
+{
+    return !is_leaf(node) && node->singles + node->blocks >= TASK_LEAVES;
+}
+
+// Appends what fills `slots` slots, or as many as there can be, with what is below node.
+static void gather_slots(BinaryNode *node, u32 slots, BinaryNode *children[BVH_WIDTH], u32 *count)
+{
+    while (slots > 1 && !is_leaf(node)) {
+        const u32 left = binary_choice(node, slots);
+        if (left > 0) {
+            gather_slots(&node->children[0], left, children, count);
+            node = &node->children[1];
+            slots -= left;
+        } else {
+            slots--;
+        }
+    }
+    children[(*count)++] = node;
+}
+
+// Sets the number of wide nodes of every two-way node from root on that becomes one.
+static void count_nodes(BinaryNode *root)
+{
+    BinaryNode *children[BVH_WIDTH];
+    u32 count = 0;
+    gather_slots(root, BVH_WIDTH, children, &count);
+    for (u32 i = 0; i < count; i++) {
+        BinaryNode *child = children[i];
+        if (is_large(child)) {
+#pragma omp task default(none) firstprivate(child)
+            count_nodes(child);
+        } else if (!is_leaf(child)) {
+            count_nodes(child);
+        }
+    }
+    if (is_large(root)) {
+#pragma omp taskwait
+    }
+    root->nodes = 1;
+    for (u32 i = 0; i < count; i++)
+        root->nodes += is_leaf(children[i]) ? 0 : children[i]->nodes;
+}
+
+static void set_slot(BvhNode *node, u32 slot, const Box *box, i32 child)
 {
     node->lower_x[slot] = box->min[0];
     node->lower_y[slot] = box->min[1];
@@ -44,62 +76,68 @@ static void set_slot(BvhNode *node, int slot, const Box *box, i32 child)
     node->upper_y[slot] = box->max[1];
     node->upper_z[slot] = box->max[2];
     node->child[slot] = child;
+    node->padding[slot] = 0;
 }
 
-static bool reserve_node(Collapse *collapse)
+// Notes what is in the leaf; returns the reference to it.
+static i32 write_leaf(const Collapse *collapse, const BinaryNode *leaf, Places places)
 {
-    if (collapse->used < collapse->capacity)
-        return true;
-    const u32 capacity = collapse->capacity ? 2 * collapse->capacity : 16;
-    BvhNode *nodes = aligned_alloc(64, capacity * sizeof *nodes);
-    if (!nodes)
-        return false;
-    for (u32 i = 0; i < collapse->used; i++)
-        nodes[i] = collapse->nodes[i];
-    free(collapse->nodes);
-    collapse->nodes = nodes;
-    collapse->capacity = capacity;
-    return true;
+    const Item *items = collapse->items + leaf->first;
+    if (leaf->singles) {
+        collapse->bvh->singles[places.single] = items[0].index;
+        return (i32)~((collapse->input->first_single + places.single) << 1);
+    }
+    u32 *block = collapse->bvh->blocks + (size_t)BLOCK_WIDTH * places.block;
+    for (u32 i = 0; i < BLOCK_WIDTH; i++)
+        block[i] = i < leaf->count ? items[i].index : UINT32_MAX;
+    return (i32)~((collapse->input->first_block + places.block) << 1 | 1);
 }
 
-// Writes the wide node of binary node `root` and all below it; the recursion is as deep as the tree.
-static bool collapse_node(Collapse *collapse, u32 root)
+// Writes the wide node of root and all below it, depth first: the numbers follow from the tree alone.
+static void write_nodes(const Collapse *collapse, BinaryNode *root, Places places)
 {
     static const Box empty = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
-    if (!reserve_node(collapse))
-        return false;
-    const u32 index = collapse->used++;
-    u32 children[BVH_WIDTH];
-    const int count = gather_children(collapse->binary, root, children);
-    for (int slot = 0; slot < BVH_WIDTH; slot++)
-        collapse->nodes[index].padding[slot] = 0;
-    for (int slot = 0; slot < BVH_WIDTH; slot++) {
-        if (slot >= count) {
-            set_slot(&collapse->nodes[index], slot, &empty, -1);
-            continue;
-        }
-        const BinaryNode *child = &collapse->binary[children[slot]];
-        if (child->count > 0) {
-            const u32 leaf = (collapse->first_primitive + child->first) << 4 | child->count;
-            set_slot(&collapse->nodes[index], slot, &child->box, (i32)~leaf);
+    BinaryNode *children[BVH_WIDTH];
+    u32 count = 0;
+    gather_slots(root, BVH_WIDTH, children, &count);
+    BvhNode *node = &collapse->bvh->nodes[places.node++];
+    for (u32 slot = 0; slot < count; slot++) {
+        BinaryNode *child = children[slot];
+        if (is_leaf(child)) {
+            set_slot(node, slot, &child->box, write_leaf(collapse, child, places));
         } else {
-            const u32 next = collapse->first_node + collapse->used;
-            set_slot(&collapse->nodes[index], slot, &child->box, (i32)next);
-            if (!collapse_node(collapse, children[slot]))
-                return false;
+            set_slot(node, slot, &child->box, (i32)(collapse->input->first_node + places.node));
+#pragma omp task default(none) firstprivate(collapse, child, places) if (is_large(child))
+            write_nodes(collapse, child, places);
+            places.node += child->nodes;
         }
+        places.single += child->singles;
+        places.block += child->blocks;
     }
-    return true;
+    for (u32 slot = count; slot < BVH_WIDTH; slot++)
+        set_slot(node, slot, &empty, -1);
 }
 
-bool bvh_collapse(const BinaryNode *binary, u32 first_node, u32 first_primitive, Bvh *bvh, Error *error)
+bool bvh_collapse(const BvhInput *input, const Item *items, Binary *binary, Bvh *bvh)
 {
-    Collapse collapse = { .binary = binary, .first_node = first_node, .first_primitive = first_primitive };
-    if (!collapse_node(&collapse, 0)) {
-        free(collapse.nodes);
-        return error_set(error, ERROR_MEMORY, "no memory for the hierarchy of %u primitives", bvh->count);
+    BinaryNode *root = &binary->root;
+    const Collapse collapse = { input, items, bvh };
+    bvh->node_count = 1;
+    bvh->single_count = root->singles;
+    bvh->block_count = root->blocks;
+    if (!is_leaf(root)) {
+#pragma omp parallel default(none) shared(root) if (is_large(root))
+#pragma omp single
+        count_nodes(root);
+        bvh->node_count = root->nodes;
     }
-    bvh->nodes = collapse.nodes;
-    bvh->node_count = collapse.used;
+    bvh->nodes = page_alloc(sizeof(BvhNode) * (u64)bvh->node_count);
+    bvh->singles = page_alloc(sizeof(u32) * (u64)bvh->single_count);
+    bvh->blocks = page_alloc(sizeof(u32) * BLOCK_WIDTH * (u64)bvh->block_count);
+    if (!bvh->nodes || (bvh->single_count && !bvh->singles) || (bvh->block_count && !bvh->blocks))
+        return false;
+#pragma omp parallel default(none) shared(collapse, root) if (is_large(root))
+#pragma omp single
+    write_nodes(&collapse, root, (Places){ 0, 0, 0 });
     return true;
 }

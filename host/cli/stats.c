@@ -34,9 +34,10 @@ void stats_print(const RunStats *stats, FILE *stream)
 {
     const RenderStats *render = stats->render;
     fprintf(stream, "picture   %u x %u on %s\n", stats->width, stats->height, stats->device_name);
-    fprintf(stream, "time      %.3f s: device %.3f, scene %.3f, layout %.3f, compile %.3f, trace %.3f\n",
-            stats->total_seconds, stats->device_seconds, stats->parse_seconds, stats->layout_seconds,
-            render->compile_seconds, render->trace_seconds);
+    fprintf(stream,
+            "time      %.3f s: device %.3f, scene %.3f, meshes %.3f, layout %.3f, compile %.3f, trace %.3f\n",
+            stats->total_seconds, stats->device_seconds, stats->parse_seconds, stats->load_seconds,
+            stats->layout_seconds, render->compile_seconds, render->trace_seconds);
     fprintf(stream, "rays      %llu, %.2f M/s:", (unsigned long long)ray_count(render),
             rays_a_second(render) * 1e-6);
     for (u32 i = 0; i < RAY_KIND_COUNT; i++)
@@ -72,9 +73,10 @@ static json_t *features_to_json(FeatureSet features)
 
 static json_t *seconds_to_json(const RunStats *stats)
 {
-    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f}", "total", stats->total_seconds, "device",
-                     stats->device_seconds, "scene", stats->parse_seconds, "layout", stats->layout_seconds,
-                     "compile", stats->render->compile_seconds, "trace", stats->render->trace_seconds);
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "total", stats->total_seconds, "device",
+                     stats->device_seconds, "scene", stats->parse_seconds, "meshes", stats->load_seconds,
+                     "layout", stats->layout_seconds, "compile", stats->render->compile_seconds, "trace",
+                     stats->render->trace_seconds);
 }
 
 static json_t *bytes_to_json(const RunStats *stats)

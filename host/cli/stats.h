@@ -11,6 +11,7 @@
 typedef struct RunStats {
     // Seconds of the wall clock.
     f64 parse_seconds;  // reading the scene
+    f64 load_seconds;   // reading the meshes that it names
     f64 layout_seconds; // arrays and hierarchies
     f64 device_seconds; // finding and opening the device
     f64 total_seconds;  // from the start of main to the closed file

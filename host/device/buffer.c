@@ -1,50 +1,12 @@
-#define _DEFAULT_SOURCE // MAP_ANONYMOUS, madvise
-
 #include "device/buffer.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
+#include "base/memory.h"
 #include "device/internal.h"
 
 static const f64 MIB = 1024.0 * 1024.0;
-static const u64 HUGE_PAGE = 2u << 20;
-
-// Memory that a CPU device can use in place: what fills a huge page begins with one and is in huge pages
-// where the system grants them; address space beyond the alignment is given back. NULL where there is none.
-static void *memory_alloc(u64 bytes)
-{
-    if (bytes > SIZE_MAX - 2 * HUGE_PAGE)
-        return NULL;
-    const bool huge = bytes >= HUGE_PAGE;
-    const size_t spare = huge ? HUGE_PAGE : 0;
-    unsigned char *base =
-        mmap(NULL, bytes + spare, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (base == MAP_FAILED)
-        return NULL;
-    if (!huge)
-        return base;
-    // What is kept ends with a page, as munmap wants addresses of pages.
-    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
-    const size_t kept = (bytes + page - 1) / page * page;
-    const size_t before = (size_t)(-(uintptr_t)base & (HUGE_PAGE - 1));
-    const size_t whole = (bytes + spare + page - 1) / page * page;
-    if (before > 0)
-        munmap(base, before);
-    if (whole > before + kept)
-        munmap(base + before + kept, whole - before - kept);
-    madvise(base + before, kept, MADV_HUGEPAGE); // a wish; slower without, not wrong
-    return base + before;
-}
-
-static void memory_free(void *memory, u64 bytes)
-{
-    if (memory)
-        munmap(memory, bytes);
-}
-
 // Drivers that allocate late would accept what they can never hold, and the system would end the program.
 static bool fits(const Device *device, const char *name, u64 bytes, Error *error)
 {
@@ -59,31 +21,23 @@ static bool fits(const Device *device, const char *name, u64 bytes, Error *error
     return true;
 }
 
-// The memory of a buffer whose other members are set.
-static bool allocate(Buffer *buffer, Error *error)
+// The device's side of a buffer whose other members are set.
+static bool open_memory(Buffer *buffer, cl_mem_flags flags, Error *error)
 {
-    const Device *device = buffer->device;
-    if (device->info.type == DEVICE_CPU) {
-        buffer->memory = memory_alloc(buffer->bytes);
-        if (!buffer->memory)
-            return error_set(error, ERROR_MEMORY, "buffer '%s' of %.1f MiB: the system has no memory left",
-                             buffer->name, (f64)buffer->bytes / MIB);
-    }
-    const cl_mem_flags flags = CL_MEM_READ_WRITE | (buffer->memory ? CL_MEM_USE_HOST_PTR : 0);
     cl_int status;
-    buffer->mem = clCreateBuffer(device->context, flags, buffer->bytes, buffer->memory, &status);
+    buffer->mem = clCreateBuffer(buffer->device->context, flags | (buffer->memory ? CL_MEM_USE_HOST_PTR : 0),
+                                 buffer->bytes, buffer->memory, &status);
     if (status == CL_INVALID_BUFFER_SIZE || status == CL_OUT_OF_RESOURCES)
         status = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     if (status != CL_SUCCESS)
         return status_error(error, status, "clCreateBuffer", "buffer '%s' of %.1f MiB on %s", buffer->name,
-                            (f64)buffer->bytes / MIB, device->info.name);
+                            (f64)buffer->bytes / MIB, buffer->device->info.name);
     return true;
 }
 
-Buffer *buffer_create(Device *device, const char *name, u64 bytes, Error *error)
+// A buffer that the device has room for, without memory.
+static Buffer *buffer_make(Device *device, const char *name, u64 bytes, Error *error)
 {
-    if (bytes == 0)
-        bytes = 16; // OpenCL has no empty buffers, and kernels want a pointer all the same
     if (!fits(device, name, bytes, error))
         return NULL;
     Buffer *buffer = calloc(1, sizeof *buffer);
@@ -97,11 +51,48 @@ Buffer *buffer_create(Device *device, const char *name, u64 bytes, Error *error)
     device->bytes += bytes;
     if (device->bytes > device->bytes_peak)
         device->bytes_peak = device->bytes;
-    if (!allocate(buffer, error)) {
-        buffer_destroy(buffer);
-        return NULL;
-    }
     return buffer;
+}
+
+// The buffer if all went well with it.
+static Buffer *buffer_if(bool ok, Buffer *buffer)
+{
+    if (ok)
+        return buffer;
+    buffer_destroy(buffer);
+    return NULL;
+}
+
+Buffer *buffer_create(Device *device, const char *name, u64 bytes, Error *error)
+{
+    if (bytes == 0)
+        bytes = 16; // OpenCL has no empty buffers, and kernels want a pointer all the same
+    Buffer *buffer = buffer_make(device, name, bytes, error);
+    if (!buffer)
+        return NULL;
+    if (device->info.type == DEVICE_CPU) {
+        buffer->memory = page_alloc(bytes);
+        buffer->owns_memory = true;
+        if (!buffer->memory) {
+            error_set(error, ERROR_MEMORY, "buffer '%s' of %.1f MiB: the system has no memory left", name,
+                      (f64)bytes / MIB);
+            return buffer_if(false, buffer);
+        }
+    }
+    return buffer_if(open_memory(buffer, CL_MEM_READ_WRITE, error), buffer);
+}
+
+Buffer *buffer_wrap(Device *device, const char *name, const void *memory, u64 bytes, Error *error)
+{
+    if (bytes == 0 || device->info.type != DEVICE_CPU) {
+        Buffer *copy = buffer_create(device, name, bytes, error);
+        return copy ? buffer_if(buffer_upload(copy, 0, memory, bytes, error), copy) : NULL;
+    }
+    Buffer *buffer = buffer_make(device, name, bytes, error);
+    if (!buffer)
+        return NULL;
+    buffer->memory = (void *)(uintptr_t)memory; // OpenCL's signature knows no const; the flag does
+    return buffer_if(open_memory(buffer, CL_MEM_READ_ONLY, error), buffer);
 }
 
 void buffer_destroy(Buffer *buffer)
@@ -109,12 +100,13 @@ void buffer_destroy(Buffer *buffer)
     if (!buffer)
         return;
     if (buffer->mem) {
-        // Memory of ours must not go while a launch still uses it.
+        // Memory of the host must not go while a launch still uses it.
         if (buffer->memory)
             clFinish(buffer->device->queue);
         clReleaseMemObject(buffer->mem);
     }
-    memory_free(buffer->memory, buffer->bytes);
+    if (buffer->owns_memory)
+        page_free(buffer->memory, buffer->bytes);
     buffer->device->bytes -= buffer->bytes;
     free(buffer);
 }

@@ -11,6 +11,11 @@ typedef struct Buffer Buffer;
 // the size, where the device refuses.
 Buffer *buffer_create(Device *device, const char *name, u64 bytes, Error *error);
 
+// A buffer that kernels only read, with the content of memory (from page_alloc). A CPU device uses that
+// memory in place, so it must stay as it is as long as the buffer is there; others get a copy. Errors as
+// above.
+Buffer *buffer_wrap(Device *device, const char *name, const void *memory, u64 bytes, Error *error);
+
 void buffer_destroy(Buffer *buffer);
 
 // Both take their place in the queue after what was launched before, and return when the bytes are copied.

@@ -22,6 +22,7 @@ struct Buffer {
     cl_mem mem;
     u64 bytes;
     void *memory; // that a CPU device uses in place; NULL on other devices
+    bool owns_memory;
     char name[64];
 };
 

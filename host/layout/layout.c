@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
+#include "base/memory.h"
+#include "layout/hierarchy.h"
 #include "layout/place.h"
 #include "layout/records.h"
 
@@ -55,10 +56,11 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
                                               [LIGHT_KIND_DIRECTIONAL] = FEATURE_DIRECTIONAL,
                                               [LIGHT_KIND_SPOT] = FEATURE_SPOT };
     FeatureSet set = placer->features;
-    const bool surfaces = layout->primitive_count > 0, lights = surfaces && layout->light_count > 0;
+    const bool bounded = placer->top.count > 0, surfaces = bounded || placer->planes.count > 0;
+    const bool lights = surfaces && layout->light_count > 0;
     if (surfaces)
         set |= feature_bit(FEATURE_SURFACES);
-    if (layout->node_count > 0)
+    if (bounded)
         set |= feature_bit(FEATURE_BVH);
     for (u32 i = 0; lights && i < layout->light_count; i++)
         set |= feature_bit(FEATURE_LIGHTS) | feature_bit(light_features[layout->lights[i].kind]);
@@ -67,6 +69,8 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
     for (u32 i = 0; i < scene->material_count; i++)
         if (placer->material_used[i])
             set |= material_features(scene, &scene->materials[i], lights);
+    if (!features_have(set, FEATURE_UV))
+        set &= ~feature_bit(FEATURE_MESH_UVS);
     if (positive(scene->background))
         set |= feature_bit(FEATURE_BACKGROUND);
     if (scene->camera.orthographic)
@@ -91,97 +95,48 @@ static u32 planes_of_light(const Layout *layout, const LightRecord *light)
     return planes;
 }
 
-static bool add_records(Layout *layout, const Scene *scene, Error *error)
+static u32 bright_lights(const Scene *scene)
 {
-    layout->materials = calloc(scene->material_count + 1, sizeof *layout->materials);
-    layout->textures = calloc(scene->texture_count + 1, sizeof *layout->textures);
-    layout->lights = calloc(scene->light_count + 1, sizeof *layout->lights);
-    if (!layout->materials || !layout->textures || !layout->lights)
+    u32 count = 0;
+    for (u32 i = 0; i < scene->light_count; i++)
+        count += positive(scene->lights[i].intensity);
+    return count;
+}
+
+static bool add_records(Layout *layout, const Scene *scene, const Placer *placer, Error *error)
+{
+    layout->material_count = scene->material_count;
+    layout->texture_count = scene->texture_count;
+    layout->light_count = layout->params.light_count = bright_lights(scene); // a dark light is none
+    layout->extra_count = placer->extra_count;
+    layout->materials = page_alloc(layout->material_count * sizeof *layout->materials);
+    layout->textures = page_alloc(layout->texture_count * sizeof *layout->textures);
+    layout->lights = page_alloc(layout->light_count * sizeof *layout->lights);
+    layout->extras = page_alloc(layout->extra_count * sizeof *layout->extras);
+    if ((!layout->materials && layout->material_count > 0) ||
+        (!layout->textures && layout->texture_count > 0) || (!layout->lights && layout->light_count > 0) ||
+        (!layout->extras && layout->extra_count > 0))
         return error_set(error, ERROR_MEMORY, "no memory for materials and lights");
     for (u32 i = 0; i < scene->material_count; i++)
-        layout->materials[layout->material_count++] = material_record(&scene->materials[i], scene->ambient);
+        layout->materials[i] = material_record(&scene->materials[i], scene->ambient);
     for (u32 i = 0; i < scene->texture_count; i++)
-        layout->textures[layout->texture_count++] = texture_record(&scene->textures[i]);
+        layout->textures[i] = texture_record(&scene->textures[i]);
+    u32 light = 0;
     for (u32 i = 0; i < scene->light_count; i++)
-        if (positive(scene->lights[i].intensity)) // a dark light is none
-            layout->lights[layout->light_count++] = light_record(&scene->lights[i], scene->camera.position);
-    layout->params.light_count = layout->light_count;
+        if (positive(scene->lights[i].intensity))
+            layout->lights[light++] = light_record(&scene->lights[i], scene->camera.position);
+    if (layout->extra_count > 0)
+        memcpy(layout->extras, placer->extras, layout->extra_count * sizeof *layout->extras);
     return true;
 }
 
-// Builds the hierarchy of a list and appends its nodes and primitives to the layout.
-static bool append_hierarchy(Layout *layout, PrimitiveList *list, u32 *root, Error *error)
+static void finish(Layout *layout)
 {
-    Bvh bvh = { .nodes = NULL };
-    const f64 start = clock_seconds();
-    if (!bvh_build(list->boxes, list->count, layout->node_count, layout->primitive_count, &bvh, error))
-        return false;
-    layout->build_seconds += clock_seconds() - start;
-    BvhNode *nodes = realloc(layout->nodes, (layout->node_count + (size_t)bvh.node_count) * sizeof *nodes);
-    layout->nodes = nodes ? nodes : layout->nodes;
-    const bool ok = nodes && primitive_list_sort(list, bvh.order, error);
-    if (ok)
-        memcpy(nodes + layout->node_count, bvh.nodes, bvh.node_count * sizeof *nodes);
-    else if (!nodes)
-        error_set(error, ERROR_MEMORY, "no memory for %u nodes of the hierarchy", bvh.node_count);
-    *root = layout->node_count;
-    layout->node_count += ok ? bvh.node_count : 0;
-    layout->primitive_count += ok ? list->count : 0;
-    bvh_destroy(&bvh);
-    return ok;
-}
-
-// Copies a list to the place in the layout's arrays that starts at *next.
-static void copy_list(Layout *layout, const PrimitiveList *list, u32 *next)
-{
-    if (list->count == 0)
-        return;
-    memcpy(layout->primitives + *next, list->primitives, list->count * sizeof *list->primitives);
-    memcpy(layout->infos + *next, list->infos, list->count * sizeof *list->infos);
-    if (list->with_frames)
-        memcpy(layout->frames + *next, list->frames, list->count * sizeof *list->frames);
-    *next += list->count;
-}
-
-// Gives INSTANCE primitives the root node of their object in place of its index.
-static void link_instances(PrimitiveList *top, const ObjectLayout *objects)
-{
-    for (u32 i = 0; i < top->count; i++) {
-        if (top->primitives[i].kind == PRIMITIVE_INSTANCE) {
-            u32 object;
-            memcpy(&object, &top->primitives[i].p0, sizeof object);
-            memcpy(&top->primitives[i].p0, &objects[object].root, sizeof object);
-        }
-    }
-}
-
-static bool add_primitives(Layout *layout, const Scene *scene, Placer *placer, Error *error)
-{
-    layout->plane_count = layout->primitive_count = placer->planes.count;
-    if (placer->top.count > 0 && !append_hierarchy(layout, &placer->top, &layout->root, error))
-        return false;
-    for (u32 i = 0; i < scene->object_count; i++) {
-        ObjectLayout *object = &placer->objects[i];
-        if (object->listed && !append_hierarchy(layout, &object->list, &object->root, error))
-            return false;
-    }
-    link_instances(&placer->top, placer->objects);
-    const size_t count = layout->primitive_count + (size_t)1;
-    layout->primitives = malloc(count * sizeof *layout->primitives);
-    layout->infos = malloc(count * sizeof *layout->infos);
-    layout->frames = placer->solid ? malloc(count * sizeof *layout->frames) : NULL;
-    if (!layout->primitives || !layout->infos || (placer->solid && !layout->frames))
-        return error_set(error, ERROR_MEMORY, "no memory for %u primitives", layout->primitive_count);
-    u32 next = 0;
-    copy_list(layout, &placer->planes, &next);
-    copy_list(layout, &placer->top, &next);
-    for (u32 i = 0; i < scene->object_count; i++)
-        copy_list(layout, &placer->objects[i].list, &next);
     for (u32 i = 0; i < layout->light_count; i++)
         layout->lights[i].planes = planes_of_light(layout, &layout->lights[i]);
     layout->params.plane_count = layout->plane_count;
     layout->params.root = layout->root;
-    return true;
+    layout->params.mesh_run_count = layout->mesh_run_count;
 }
 
 Layout *layout_create(const Scene *scene, Error *error)
@@ -194,14 +149,13 @@ Layout *layout_create(const Scene *scene, Error *error)
     }
     layout->params = camera_params(scene);
     layout->root = NO_INDEX;
-    const bool ok = placer_run(&placer, scene, error) && add_records(layout, scene, error) &&
-                    add_primitives(layout, scene, &placer, error);
+    bool ok = placer_run(&placer, scene, error) && add_records(layout, scene, &placer, error);
     if (ok) {
         layout->features = scene_features(scene, layout, &placer);
-        layout->extras = placer.extras;
-        layout->extra_count = placer.extra_count;
-        placer.extras = NULL;
+        ok = hierarchies_add(layout, &placer, error);
     }
+    if (ok)
+        finish(layout);
     placer_destroy(&placer);
     if (!ok) {
         layout_destroy(layout);
@@ -210,17 +164,34 @@ Layout *layout_create(const Scene *scene, Error *error)
     return layout;
 }
 
+void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS])
+{
+    const Layout *l = layout;
+    const LayoutArray all[LAYOUT_ARRAYS] = {
+        { "primitives", l->primitives, l->primitive_count * sizeof *l->primitives },
+        { "infos", l->infos, l->primitive_count * sizeof *l->infos },
+        { "frames", l->frames, l->frame_count * sizeof *l->frames },
+        { "nodes", l->nodes, l->node_count * sizeof *l->nodes },
+        { "blocks", l->blocks, l->block_count * sizeof *l->blocks },
+        { "mesh_runs", l->mesh_runs, l->mesh_run_count * sizeof *l->mesh_runs },
+        { "mesh_indices", l->mesh_indices, l->mesh_index_count * sizeof *l->mesh_indices },
+        { "mesh_normals", l->mesh_normals, l->mesh_normal_count * sizeof *l->mesh_normals },
+        { "mesh_uvs", l->mesh_uvs, l->mesh_uv_count * sizeof *l->mesh_uvs },
+        { "extras", l->extras, l->extra_count * sizeof *l->extras },
+        { "materials", l->materials, l->material_count * sizeof *l->materials },
+        { "textures", l->textures, l->texture_count * sizeof *l->textures },
+        { "lights", l->lights, l->light_count * sizeof *l->lights },
+    };
+    memcpy(arrays, all, sizeof all);
+}
+
 void layout_destroy(Layout *layout)
 {
     if (!layout)
         return;
-    free(layout->primitives);
-    free(layout->infos);
-    free(layout->frames);
-    free(layout->nodes);
-    free(layout->extras);
-    free(layout->materials);
-    free(layout->textures);
-    free(layout->lights);
+    LayoutArray arrays[LAYOUT_ARRAYS];
+    layout_arrays(layout, arrays);
+    for (u32 i = 0; i < LAYOUT_ARRAYS; i++)
+        page_free(arrays[i].data, arrays[i].bytes);
     free(layout);
 }

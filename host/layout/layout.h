@@ -11,19 +11,33 @@
 #include "shared/instance.h"
 #include "shared/light.h"
 #include "shared/material.h"
+#include "shared/mesh.h"
 #include "shared/object_frame.h"
 #include "shared/params.h"
 
+// All arrays are in whole pages (base/memory.h), so that devices can use them in place; those of no members
+// are NULL.
 typedef struct Layout {
     FeatureSet features;
     Primitive *primitives; // planes, then the top-level leaves, then those of each object
     PrimitiveInfo *infos;  // beside the primitives
-    ObjectFrame *frames;   // beside the primitives where HAS_CHECKER3D; else NULL
+    ObjectFrame *frames;   // where textures need object space: beside the primitives, then one a mesh
     u32 primitive_count;
+    u32 frame_count;
     u32 plane_count;
     BvhNode *nodes;
     u32 node_count;
     u32 root; // of the top-level hierarchy; NO_INDEX: none
+    TriangleBlock *blocks; // the leaves' triangles
+    u32 block_count;
+    MeshRun *mesh_runs; // by first face
+    u32 mesh_run_count;
+    u32 *mesh_indices; // of normals and of uvs, three a face
+    u32 mesh_index_count;
+    f32 (*mesh_normals)[3]; // carried to the space of the hierarchy, one factor a mesh
+    u32 mesh_normal_count;
+    f32 (*mesh_uvs)[2];
+    u32 mesh_uv_count;
     TriangleExtra *extras;
     u32 extra_count;
     MaterialRecord *materials; // at the scene's indices
@@ -36,7 +50,19 @@ typedef struct Layout {
     f64 build_seconds;   // of the hierarchies
 } Layout;
 
-// Fails with ERROR_MEMORY. The layout is the caller's to destroy and does not refer to the scene.
+// An array by the name that kernels have for it.
+typedef struct LayoutArray {
+    const char *name;
+    void *data; // page_alloc
+    u64 bytes;
+} LayoutArray;
+
+#define LAYOUT_ARRAYS 13
+void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS]);
+
+// Shapes that are meshes must have theirs, one of scene->meshes. Fails with ERROR_MEMORY, and with the place
+// of a shape that leaves the range of float (ERROR_SCENE). The layout is the caller's to destroy and does not
+// refer to the scene.
 Layout *layout_create(const Scene *scene, Error *error);
 void layout_destroy(Layout *layout);
 

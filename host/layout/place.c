@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "layout/bake.h"
+#include "layout/faces.h"
+#include "layout/records.h"
 
 // Where a group is placed: space of the group -> render space, the material that its shapes inherit (-1:
 // none), its first place in the order of definition.
@@ -28,21 +30,6 @@ static const Feature shape_features[PRIMITIVE_KIND_COUNT] = {
     [PRIMITIVE_TORUS] = FEATURE_TORUS,
     [PRIMITIVE_TRIANGLE] = FEATURE_TRIANGLE,
 };
-
-static bool transmits(const Material *material)
-{
-    return material->transmit.x > 0 || material->transmit.y > 0 || material->transmit.z > 0;
-}
-
-// Adds the place of what went wrong, unless memory did.
-static bool located(const Scene *scene, SourcePos at, Error *error)
-{
-    const Error reason = *error;
-    if (reason.code == ERROR_MEMORY)
-        return false;
-    return error_set(error, reason.code, "%s:%u:%u: error: %s", scene->files[at.file], at.line, at.column,
-                     reason.text);
-}
 
 static Vec3 carried_normal(const Affine *inverse, Vec3 n)
 {
@@ -92,6 +79,18 @@ static bool add_extra(Placer *placer, const Shape *shape, const Affine *to_space
     return true;
 }
 
+// The material of this index can be seen.
+static void use_material(Placer *placer, i32 material)
+{
+    placer->material_used[material < 0 ? 0 : material] = true;
+}
+
+// Places that a shape takes in the order of definition.
+static u64 order_size(const Shape *shape)
+{
+    return shape->kind == SHAPE_MESH ? shape->as.mesh.mesh->face_count : 1;
+}
+
 // Bakes shape into list (or the planes). material -1: inherited from the instance.
 static bool add_shape(Placer *placer, PrimitiveList *list, const Shape *shape, Affine to_space, i32 material,
                       u64 order, Error *error)
@@ -99,22 +98,50 @@ static bool add_shape(Placer *placer, PrimitiveList *list, const Shape *shape, A
     Primitive primitive;
     BakedBounds bounds;
     ObjectFrame frame;
-    PrimitiveInfo info = { material < 0 ? NO_INDEX : (u32)material, NO_INDEX, (u32)order,
+    PrimitiveInfo info = { material < 0 ? MATERIAL_INHERITED : (u32)material, NO_INDEX, (u32)order,
                            (u32)(order >> 32) };
     const Affine total = affine_compose(to_space, shape->transform);
     memset(&primitive, 0, sizeof primitive);
     if (!bake_shape(shape, &total, &primitive, &bounds, error) ||
         (placer->solid && !bake_object_frame(&total, &frame, error)) ||
         !add_extra(placer, shape, &total, &info.extra, error))
-        return located(placer->scene, shape->at, error);
+        return error_locate(placer->scene, shape->at, error);
     placer->features |= feature_bit(shape_features[primitive.kind]);
     if (material >= 0) {
-        placer->material_used[material] = true;
-        if (!transmits(&placer->scene->materials[material]))
+        use_material(placer, material);
+        if (!material_transmits(&placer->scene->materials[material]))
             primitive.kind |= PRIMITIVE_OPAQUE;
     }
     return primitive_list_add(list, &primitive, info, placer->solid ? &frame : NULL,
                               box_from_bounds(bounds.min, bounds.max), error);
+}
+
+static void use_file_materials(Placer *placer, const Mesh *mesh)
+{
+    for (u32 i = 0; i < mesh->part_count; i++)
+        use_material(placer, mesh->parts[i].material);
+}
+
+// material: goes before the file's; -1: none. inherits: that of the instance does, too.
+static bool add_mesh(Placer *placer, Level *level, const Shape *shape, Affine to_space, i32 material,
+                     bool inherits, u64 order, Error *error)
+{
+    const Mesh *data = shape->as.mesh.mesh;
+    PlacedMesh mesh = { .shape = shape, .to_space = affine_compose(to_space, shape->transform),
+                        .material = material, .inherits = inherits, .order = order };
+    if ((placer->solid && !bake_object_frame(&mesh.to_space, &mesh.frame, error)) ||
+        !mesh_list_add(&level->meshes, &mesh, error))
+        return error_locate(placer->scene, shape->at, error);
+    if (material >= 0)
+        use_material(placer, material);
+    else if (!inherits)
+        use_file_materials(placer, data);
+    placer->features |= feature_bit(FEATURE_MESH);
+    if (mesh_has_normals(&mesh))
+        placer->features |= feature_bit(FEATURE_MESH_NORMALS);
+    if (mesh_has_uvs(&mesh))
+        placer->features |= feature_bit(FEATURE_MESH_UVS);
+    return true;
 }
 
 // The shapes of an object, in its own space, once. There is at least one.
@@ -124,22 +151,46 @@ static bool list_object(Placer *placer, u32 index, Error *error)
     ObjectLayout *object = &placer->objects[index];
     const Group *group = &scene->objects[index].group;
     u64 order = 0;
-    object->list.with_frames = placer->solid;
+    object->level.list.with_frames = placer->solid;
     for (u32 i = 0; i < group->count; i++) {
         if (group->items[i].kind == ITEM_INSTANCE) {
             order += placer->objects[scene->instances[group->items[i].index].object].order_size;
             continue;
         }
         const Shape *shape = &scene->shapes[group->items[i].index];
-        if (shape->kind != SHAPE_PLANE &&
-            !add_shape(placer, &object->list, shape, affine_identity(), shape->material, order, error))
+        const bool mesh = shape->kind == SHAPE_MESH, plane = shape->kind == SHAPE_PLANE;
+        if (mesh && !add_mesh(placer, &object->level, shape, affine_identity(), shape->material,
+                              shape->material < 0, order, error))
             return false;
-        object->inherits = object->inherits || (shape->kind != SHAPE_PLANE && shape->material < 0);
-        order++;
+        if (!mesh && !plane && !add_shape(placer, &object->level.list, shape, affine_identity(),
+                                          shape->material, order, error))
+            return false;
+        object->inherits = object->inherits || (!plane && shape->material < 0);
+        order += order_size(shape);
     }
-    object->bounds = primitive_list_bounds(&object->list);
     object->listed = true;
-    return true;
+    return level_complete(&object->level, scene, error);
+}
+
+// What is to be known of the materials when an object with a level is placed with this one (-1: none).
+static void note_material(Placer *placer, ObjectLayout *object, i32 material)
+{
+    Level *level = &object->level;
+    if (!object->inherits)
+        return;
+    if (material >= 0) {
+        use_material(placer, material);
+        level->transmits_named =
+            level->transmits_named || material_transmits(&placer->scene->materials[material]);
+    } else if (!level->unnamed) {
+        level->unnamed = true;
+        for (u32 i = 0; i < level->list.count; i++)
+            if (level->list.infos[i].material & MATERIAL_INHERITED)
+                use_material(placer, 0);
+        for (u32 i = 0; i < level->meshes.count; i++)
+            if (level->meshes.meshes[i].inherits)
+                use_file_materials(placer, level->meshes.meshes[i].shape->as.mesh.mesh);
+    }
 }
 
 // The box of a placed box; what the map to the object's space, rounded to float, may be off by is added.
@@ -175,14 +226,12 @@ static bool add_instance(Placer *placer, u32 index, const Placement *placement, 
     primitive.row2 = (f32x4){ (f32)map.row[2].x, (f32)map.row[2].y, (f32)map.row[2].z, (f32)c.z };
     memcpy(&primitive.p0, &index, sizeof index);
     primitive.kind = PRIMITIVE_INSTANCE;
-    const i32 material = placement->material < 0 ? 0 : placement->material;
-    const PrimitiveInfo info = { (u32)material, NO_INDEX, (u32)placement->order,
-                                 (u32)(placement->order >> 32) };
+    const PrimitiveInfo info = { placement->material < 0 ? NO_INDEX : (u32)placement->material, NO_INDEX,
+                                 (u32)placement->order, (u32)(placement->order >> 32) };
     placer->features |= feature_bit(FEATURE_INSTANCES);
-    if (placer->objects[index].inherits)
-        placer->material_used[material] = true;
-    return primitive_list_add(&placer->top, &primitive, info, NULL,
-                              placed_box(&placer->objects[index].bounds, &placement->to_render), error);
+    note_material(placer, &placer->objects[index], placement->material);
+    return primitive_list_add(&placer->top.list, &primitive, info, NULL,
+                              placed_box(&placer->objects[index].level.bounds, &placement->to_render), error);
 }
 
 // A group that is being placed. Objects may nest as deep as a file likes, so the stack of them is our own.
@@ -190,7 +239,7 @@ typedef struct Frame {
     const Group *group;
     u32 next;      // item
     Placement at;
-    bool own_list; // bounded shapes belong to the object's own list
+    bool own_level; // bounded shapes belong to the object's own level
 } Frame;
 
 typedef struct FrameStack {
@@ -198,7 +247,7 @@ typedef struct FrameStack {
     u32 count, capacity;
 } FrameStack;
 
-static bool push_frame(FrameStack *stack, const Group *group, Placement at, bool own_list, Error *error)
+static bool push_frame(FrameStack *stack, const Group *group, Placement at, bool own_level, Error *error)
 {
     if (stack->count == stack->capacity) {
         const u32 capacity = stack->capacity ? 2 * stack->capacity : 16;
@@ -208,18 +257,22 @@ static bool push_frame(FrameStack *stack, const Group *group, Placement at, bool
         stack->frames = frames;
         stack->capacity = capacity;
     }
-    stack->frames[stack->count++] = (Frame){ group, 0, at, own_list };
+    stack->frames[stack->count++] = (Frame){ group, 0, at, own_level };
     return true;
 }
 
 static bool place_shape(Placer *placer, const Shape *shape, Frame *frame, Error *error)
 {
     const bool plane = shape->kind == SHAPE_PLANE;
-    const i32 inherited = frame->at.material < 0 ? 0 : frame->at.material;
-    const u64 order = frame->at.order++;
-    return (frame->own_list && !plane) ||
-           add_shape(placer, plane ? &placer->planes : &placer->top, shape, frame->at.to_render,
-                     shape->material < 0 ? inherited : shape->material, order, error);
+    const i32 material = shape->material < 0 ? frame->at.material : shape->material;
+    const u64 order = frame->at.order;
+    frame->at.order += order_size(shape);
+    if (frame->own_level && !plane)
+        return true;
+    if (shape->kind == SHAPE_MESH)
+        return add_mesh(placer, &placer->top, shape, frame->at.to_render, material, false, order, error);
+    return add_shape(placer, plane ? &placer->planes : &placer->top.list, shape, frame->at.to_render,
+                     material < 0 ? 0 : material, order, error);
 }
 
 // Places an instance and puts the group of its object on the stack.
@@ -230,12 +283,12 @@ static bool place_instance(Placer *placer, const Instance *instance, FrameStack 
     const Placement inner = { affine_compose(frame->at.to_render, instance->transform),
                               instance->material < 0 ? frame->at.material : instance->material,
                               frame->at.order };
-    const bool listed = object->bounded > 1;
     frame->at.order += object->order_size;
-    if (listed && !add_instance(placer, instance->object, &inner, error))
+    if (object->second_level && !add_instance(placer, instance->object, &inner, error))
         return false;
-    return (listed && !object->deeper) ||
-           push_frame(stack, &placer->scene->objects[instance->object].group, inner, listed, error);
+    return (object->second_level && !object->deeper) ||
+           push_frame(stack, &placer->scene->objects[instance->object].group, inner, object->second_level,
+                      error);
 }
 
 static bool place_world(Placer *placer, Placement world, Error *error)
@@ -259,25 +312,50 @@ static bool place_world(Placer *placer, Placement world, Error *error)
     return ok;
 }
 
-// Sizes of the objects (each holds only objects defined before it), and what their textures need.
-static void measure(Placer *placer)
+// Sizes of the objects; each holds only objects defined before it.
+static void measure_objects(Placer *placer)
 {
     const Scene *scene = placer->scene;
     for (u32 i = 0; i < scene->object_count; i++) {
         const Group *group = &scene->objects[i].group;
+        ObjectLayout *object = &placer->objects[i];
         for (u32 k = 0; k < group->count; k++) {
             if (group->items[k].kind == ITEM_INSTANCE) {
                 const Instance *instance = &scene->instances[group->items[k].index];
-                placer->objects[i].order_size += placer->objects[instance->object].order_size;
-                placer->objects[i].deeper = true;
+                object->order_size += placer->objects[instance->object].order_size;
+                object->deeper = true;
             } else {
-                const bool plane = scene->shapes[group->items[k].index].kind == SHAPE_PLANE;
-                placer->objects[i].order_size++;
-                placer->objects[i].bounded += !plane;
-                placer->objects[i].deeper = placer->objects[i].deeper || plane;
+                const Shape *shape = &scene->shapes[group->items[k].index];
+                object->order_size += order_size(shape);
+                object->bounded += shape->kind != SHAPE_PLANE;
+                object->meshes = object->meshes || shape->kind == SHAPE_MESH;
+                object->deeper = object->deeper || shape->kind == SHAPE_PLANE;
             }
         }
     }
+}
+
+static void count_placements(Placer *placer, const Group *group, u64 placements)
+{
+    for (u32 k = 0; k < group->count; k++)
+        if (group->items[k].kind == ITEM_INSTANCE)
+            placer->objects[placer->scene->instances[group->items[k].index].object].placements += placements;
+}
+
+// Which objects get a level of their own: a mesh is worth it alone, where it is placed more than once.
+static void choose_levels(Placer *placer)
+{
+    count_placements(placer, &placer->scene->world, 1);
+    for (u32 i = placer->scene->object_count; i-- > 0;) {
+        ObjectLayout *object = &placer->objects[i];
+        count_placements(placer, &placer->scene->objects[i].group, object->placements);
+        object->second_level = object->meshes ? object->placements > 1 : object->bounded > 1;
+    }
+}
+
+static void find_texture_needs(Placer *placer)
+{
+    const Scene *scene = placer->scene;
     for (u32 i = 0; i < scene->material_count; i++) {
         const i32 textures[2] = { scene->materials[i].diffuse.texture, scene->materials[i].ambient.texture };
         for (int k = 0; k < 2; k++) {
@@ -297,18 +375,20 @@ bool placer_run(Placer *placer, const Scene *scene, Error *error)
     placer->material_used = calloc(scene->material_count + 1, sizeof *placer->material_used);
     if (!placer->objects || !placer->material_used)
         return error_set(error, ERROR_MEMORY, "no memory for %u objects", scene->object_count);
-    measure(placer);
-    placer->planes.with_frames = placer->top.with_frames = placer->solid;
+    measure_objects(placer);
+    choose_levels(placer);
+    find_texture_needs(placer);
+    placer->planes.with_frames = placer->top.list.with_frames = placer->solid;
     const Placement world = { affine_translate(vec_scale(scene->camera.position, -1)), -1, 0 };
-    return place_world(placer, world, error);
+    return place_world(placer, world, error) && level_complete(&placer->top, scene, error);
 }
 
 void placer_destroy(Placer *placer)
 {
     for (u32 i = 0; placer->objects && i < placer->scene->object_count; i++)
-        primitive_list_destroy(&placer->objects[i].list);
+        level_destroy(&placer->objects[i].level);
     primitive_list_destroy(&placer->planes);
-    primitive_list_destroy(&placer->top);
+    level_destroy(&placer->top);
     free(placer->objects);
     free(placer->extras);
     free(placer->material_used);

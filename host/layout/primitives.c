@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { STORE_PARALLEL = 4096 }; // fewer are not worth waking threads
+
 // Makes room for `capacity` primitives; on failure the list keeps what it has.
 static bool reserve(PrimitiveList *list, u32 capacity)
 {
@@ -43,33 +45,17 @@ bool primitive_list_add(PrimitiveList *list, const Primitive *primitive, Primiti
     return true;
 }
 
-// A copy of count items of size bytes in the given order; NULL when memory is exhausted.
-static void *reordered(const void *items, size_t size, const u32 *order, u32 count)
+void primitive_list_store(const PrimitiveList *list, const u32 *order, u32 count, Primitive *primitives,
+                          PrimitiveInfo *infos, ObjectFrame *frames)
 {
-    unsigned char *copy = malloc(count * size);
-    for (u32 i = 0; copy && i < count; i++)
-        memcpy(copy + i * size, (const unsigned char *)items + order[i] * size, size);
-    return copy;
-}
-
-bool primitive_list_sort(PrimitiveList *list, const u32 *order, Error *error)
-{
-    Primitive *primitives = reordered(list->primitives, sizeof *primitives, order, list->count);
-    PrimitiveInfo *infos = reordered(list->infos, sizeof *infos, order, list->count);
-    ObjectFrame *frames =
-        list->with_frames ? reordered(list->frames, sizeof *frames, order, list->count) : NULL;
-    if (!primitives || !infos || (list->with_frames && !frames)) {
-        free(primitives);
-        free(infos);
-        free(frames);
-        return error_set(error, ERROR_MEMORY, "no memory for %u primitives", list->count);
+#pragma omp parallel for if (count >= STORE_PARALLEL)
+    for (u32 i = 0; i < count; i++) {
+        const u32 from = order ? order[i] : i;
+        primitives[i] = list->primitives[from];
+        infos[i] = list->infos[from];
+        if (frames)
+            frames[i] = list->frames[from];
     }
-    const PrimitiveList sorted = { .primitives = primitives, .infos = infos, .frames = frames,
-                                   .count = list->count, .capacity = list->count,
-                                   .with_frames = list->with_frames };
-    primitive_list_destroy(list);
-    *list = sorted;
-    return true;
 }
 
 void primitive_list_destroy(PrimitiveList *list)

@@ -1,5 +1,4 @@
-// PrimitiveList: primitives of one hierarchy with what stands beside them, before and after they are sorted
-// into its leaves.
+// PrimitiveList: primitives of one hierarchy, or the planes, with what stands beside them.
 #ifndef CLRT_LAYOUT_PRIMITIVES_H
 #define CLRT_LAYOUT_PRIMITIVES_H
 
@@ -23,8 +22,10 @@ typedef struct PrimitiveList {
 bool primitive_list_add(PrimitiveList *list, const Primitive *primitive, PrimitiveInfo info,
                         const ObjectFrame *frame, Box box, Error *error);
 
-// Reorders the list: place i takes what was at order[i]. Boxes are dropped. Fails with ERROR_MEMORY.
-bool primitive_list_sort(PrimitiveList *list, const u32 *order, Error *error);
+// Writes `count` primitives to arrays: place i takes what is at order[i] of the list (NULL: at i). frames may
+// be NULL.
+void primitive_list_store(const PrimitiveList *list, const u32 *order, u32 count, Primitive *primitives,
+                          PrimitiveInfo *infos, ObjectFrame *frames);
 
 void primitive_list_destroy(PrimitiveList *list);
 

@@ -49,6 +49,11 @@ LightRecord light_record(const Light *light, Vec3 camera)
     return record;
 }
 
+bool material_transmits(const Material *material)
+{
+    return material->transmit.x > 0 || material->transmit.y > 0 || material->transmit.z > 0;
+}
+
 MaterialRecord material_record(const Material *material, Vec3 ambient_light)
 {
     MaterialRecord record;

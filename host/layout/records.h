@@ -10,6 +10,8 @@
 // Render space: camera is the position that becomes the origin.
 LightRecord light_record(const Light *light, Vec3 camera);
 
+// Whether light may pass through a surface of this material.
+bool material_transmits(const Material *material);
 MaterialRecord material_record(const Material *material, Vec3 ambient_light);
 TextureRecord texture_record(const Texture *texture);
 

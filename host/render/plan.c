@@ -61,13 +61,12 @@ u32 plan_first_samples(const Plan *plan)
 
 static u64 scene_bytes(const Layout *layout)
 {
-    return sizeof(RenderParams) + layout->primitive_count * (u64)sizeof(Primitive) +
-           layout->primitive_count * (u64)sizeof(PrimitiveInfo) +
-           (layout->frames ? layout->primitive_count * (u64)sizeof(ObjectFrame) : 0) +
-           layout->node_count * (u64)sizeof(BvhNode) + layout->extra_count * (u64)sizeof(TriangleExtra) +
-           layout->material_count * (u64)sizeof(MaterialRecord) +
-           layout->texture_count * (u64)sizeof(TextureRecord) +
-           layout->light_count * (u64)sizeof(LightRecord);
+    LayoutArray arrays[LAYOUT_ARRAYS];
+    layout_arrays(layout, arrays);
+    u64 bytes = sizeof(RenderParams);
+    for (u32 i = 0; i < LAYOUT_ARRAYS; i++)
+        bytes += arrays[i].bytes;
+    return bytes;
 }
 
 static void count_fields(Plan *plan, const Layout *layout)

@@ -10,17 +10,14 @@
 #include "device/program.h"
 #include "render/plan.h"
 
-// Device arrays of the scene; those that it does not need are NULL.
-enum { SCENE_BUFFERS = 9 };
-
 struct Render {
     RenderJob job;
     Plan plan;
     RenderParams params;
     Program *program;
     Kernel *kernel;
-    Buffer *scene[SCENE_BUFFERS];
-    Buffer *state_reals, *state_ints, *film, *film_low, *ray_counts;
+    Buffer *scene[LAYOUT_ARRAYS]; // those that the program does not need are NULL
+    Buffer *params_buffer, *state_reals, *state_ints, *film, *film_low, *ray_counts;
     f32 *rows;
     u32 *counts;
     u32 band_top;         // rows of the crop that are complete
@@ -40,43 +37,34 @@ size_t render_program_options(FeatureSet features, const DeviceInfo *info, char 
     return used + features_options(features, used < size ? text + used : NULL, used < size ? size - used : 0);
 }
 
-// Puts an array of the scene on the device and binds it, where the kernel wants it.
-static bool add_scene_buffer(Render *render, u32 slot, const char *name, const void *data, u64 bytes,
-                             Error *error)
-{
-    if (!kernel_has(render->kernel, name))
-        return true;
-    Buffer *buffer = buffer_create(render->job.device, name, bytes, error);
-    render->scene[slot] = buffer;
-    render->stats.scene_bytes += bytes;
-    return buffer && (bytes == 0 || buffer_upload(buffer, 0, data, bytes, error)) &&
-           kernel_set_buffer(render->kernel, name, buffer, error);
-}
-
-static bool add_scene(Render *render, Error *error)
-{
-    const Layout *l = render->job.layout;
-    return add_scene_buffer(render, 0, "params", &render->params, sizeof render->params, error) &&
-           add_scene_buffer(render, 1, "primitives", l->primitives,
-                            l->primitive_count * sizeof *l->primitives, error) &&
-           add_scene_buffer(render, 2, "infos", l->infos, l->primitive_count * sizeof *l->infos, error) &&
-           add_scene_buffer(render, 3, "frames", l->frames, l->primitive_count * sizeof *l->frames, error) &&
-           add_scene_buffer(render, 4, "nodes", l->nodes, l->node_count * sizeof *l->nodes, error) &&
-           add_scene_buffer(render, 5, "materials", l->materials, l->material_count * sizeof *l->materials,
-                            error) &&
-           add_scene_buffer(render, 6, "textures", l->textures, l->texture_count * sizeof *l->textures,
-                            error) &&
-           add_scene_buffer(render, 7, "extras", l->extras, l->extra_count * sizeof *l->extras, error) &&
-           add_scene_buffer(render, 8, "lights", l->lights, l->light_count * sizeof *l->lights, error);
-}
-
-// A buffer of the render itself, bound to the argument of the same name.
+// A buffer of the render itself, bound to the argument of the same name where the kernel has one.
 static bool add_buffer(Render *render, Buffer **buffer, const char *name, u64 bytes, Error *error)
 {
     if (!kernel_has(render->kernel, name))
         return true;
     *buffer = buffer_create(render->job.device, name, bytes, error);
     return *buffer && kernel_set_buffer(render->kernel, name, *buffer, error);
+}
+
+// Puts the arrays of the scene that the kernel wants on the device and binds them.
+static bool add_scene(Render *render, Error *error)
+{
+    Device *device = render->job.device;
+    LayoutArray arrays[LAYOUT_ARRAYS];
+    layout_arrays(render->job.layout, arrays);
+    for (u32 i = 0; i < LAYOUT_ARRAYS; i++) {
+        const LayoutArray *array = &arrays[i];
+        if (!kernel_has(render->kernel, array->name))
+            continue;
+        render->scene[i] = buffer_wrap(device, array->name, array->data, array->bytes, error);
+        if (!render->scene[i] || !kernel_set_buffer(render->kernel, array->name, render->scene[i], error))
+            return false;
+        render->stats.scene_bytes += array->bytes;
+    }
+    render->stats.scene_bytes += sizeof render->params;
+    return add_buffer(render, &render->params_buffer, "params", sizeof render->params, error) &&
+           (!render->params_buffer ||
+            buffer_upload(render->params_buffer, 0, &render->params, sizeof render->params, error));
 }
 
 static bool add_work_buffers(Render *render, Error *error)
@@ -188,8 +176,9 @@ void render_destroy(Render *render)
 {
     if (!render)
         return;
-    for (u32 i = 0; i < SCENE_BUFFERS; i++)
+    for (u32 i = 0; i < LAYOUT_ARRAYS; i++)
         buffer_destroy(render->scene[i]);
+    buffer_destroy(render->params_buffer);
     buffer_destroy(render->state_reals);
     buffer_destroy(render->state_ints);
     buffer_destroy(render->film);

@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "base/types.h"
 #include "base/vec.h"
+#include "scene/mesh.h"
 
 // Where a thing stands in the text: index into Scene.files, line and column from 1.
 typedef struct SourcePos {
@@ -186,7 +187,12 @@ typedef struct Shape {
         struct { Vec3 base, top; f64 radius; bool caps; } cylinder;
         struct { Vec3 base, top; f64 radius, top_radius; bool caps; } cone;
         struct { Vec3 center, axis; f64 major, minor; } torus;
-        struct { const char *file; i32 smooth; } mesh; // resolved path; smooth -1: as the file says
+        struct {
+            const char *file; // resolved path
+            i32 smooth;       // -1: as the file says
+            const Mesh *mesh; // one of Scene.meshes; NULL until assets_load
+            SourcePos file_at;
+        } mesh;
     } as;
 } Shape;
 
@@ -230,6 +236,8 @@ typedef struct Scene {
     u32 texture_count;
     Material *materials; // [0] is `default`
     u32 material_count;
+    Mesh *meshes; // of the files that shapes name; filled by assets_load
+    u32 mesh_count;
     Shape *shapes;
     u32 shape_count;
     Instance *instances;

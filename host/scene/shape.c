@@ -84,7 +84,8 @@ static const Property TORUS_PROPERTIES[] = {
 };
 
 static const Property MESH_PROPERTIES[] = {
-    {"file", VALUE_FILE, AT(Shape, as.mesh.file), .required = true},
+    {"file", VALUE_FILE, AT(Shape, as.mesh.file), .required = true,
+     .position = offsetof(Shape, as.mesh.file_at)},
     {"smooth", VALUE_WORD, AT(Shape, as.mesh.smooth), .words = SMOOTH_WORDS},
     COMMON,
 };

@@ -38,8 +38,4 @@ void scene_check_support(const Scene *scene, Diagnostics *diagnostics)
         refuse(scene, diagnostics, material->at, material->kind == MATERIAL_PBR, "pbr materials are");
         refuse(scene, diagnostics, material->normal_map_at, material->normal_map >= 0, "'normal_map' is");
     }
-    for (u32 i = 0; i < scene->shape_count; ++i) {
-        const Shape *shape = &scene->shapes[i];
-        refuse(scene, diagnostics, shape->at, shape->kind == SHAPE_MESH, "meshes are");
-    }
 }

@@ -1,65 +1,15 @@
 // Batch traversal: BATCH rays of one work-item walk an eight-way hierarchy together with one stack of
-// (node, mask of rays). Each ray tests the eight boxes of a node in one vector operation; loading, sorting
-// and stack are shared by the batch. In leaves one primitive is tested against LANES rays at a time.
-// BATCH is 1 where the hardware runs one ray a work-item (GPUs): the same code is then the plain loop.
+// (node, mask of rays). Loading, sorting and stack are shared by the batch; coherent rays test boxes and
+// triangles as packets, others one ray against eight boxes or eight triangles at a time; when hardly a ray is
+// left in a subtree it goes on by itself. BATCH is 1 where the hardware runs one ray a work-item (GPUs).
 //
-// Pro: needs no coherence, never tests a box for a ray that did not reach it. Con: for very coherent rays a
-// packet with a frustum test does less. Boxes are tested by the robust slabs of Ize, "Robust BVH ray
-// traversal", 2013, with the slack that the error of a primitive's t needs, so that the order of traversal
-// can never change a hit: among hits the least t wins, ties go to the first-defined primitive.
+// Every way is the same arithmetic. Among hits the least t wins, ties go to the first-defined primitive, and
+// no box hides a hit (accel/slabs.h), so the order of traversal never changes a hit.
 #ifndef CLRT_KERNELS_ACCEL_BATCH_H
 #define CLRT_KERNELS_ACCEL_BATCH_H
 
-#include "base/ray.h"
+#include "accel/hits.h"
 #include "shapes/shapes.h"
-#include "shared/bvh.h"
-#include "shared/instance.h"
-#include "shared/material.h"
-
-// Relative slack of a box's far side: 32 rounding units, several times the error bound of any t.
-#define BOX_SLACK 1.000004f
-
-// What traversal reads of the scene.
-typedef struct {
-    global const Primitive *primitives;
-    global const PrimitiveInfo *infos;
-#if HAS_BVH
-    global const BvhNode *nodes;
-#endif
-    uint plane_count;
-    uint root;
-} Hierarchy;
-
-// The rays of a batch in one space.
-typedef struct {
-    real org_x[BATCH], org_y[BATCH], org_z[BATCH];
-    real dir_x[BATCH], dir_y[BATCH], dir_z[BATCH];
-} BatchRays;
-
-// What a batch looks for and has found; the same in every space, because t is.
-typedef struct {
-    real tfar[BATCH];     // closest so far, or the end of the ray
-    int self[BATCH];      // 2 * index of the primitive the ray starts on + (1 where it starts inward); -1
-    int primitive[BATCH]; // hit, or NO_HIT
-#if HAS_INSTANCES
-    int self_instance[BATCH];
-    int instance[BATCH]; // index of the INSTANCE primitive of the hit, or NO_HIT
-#endif
-#if HAS_TRANSMITTANCE
-    real tmin[BATCH]; // hits have t > tmin, or t = tmin on a primitive after last_x in the order of ties
-    int last_primitive[BATCH]; // surface that the ray has crossed at tmin, or NO_HIT
-    int last_instance[BATCH];
-#endif
-} BatchHits;
-
-static inline int lowest_bit(uint bits) { return 31 - (int)clz(bits & -bits); }
-
-// Bits of the rays of a batch that are meant, count of them or all.
-static inline uint batch_mask(uint count)
-{
-    const uint rays = count < BATCH ? count : BATCH;
-    return rays == 32 ? 0xffffffffu : (1u << rays) - 1u;
-}
 
 static inline PrimitiveLanes primitive_splat(global const Primitive *p)
 {
@@ -75,29 +25,14 @@ static inline PrimitiveLanes primitive_splat(global const Primitive *p)
     return lanes;
 }
 
-// Place of a hit in the order of definition.
-static inline ulong hit_order(const Hierarchy *scene, int instance, int primitive)
-{
-    global const PrimitiveInfo *info = &scene->infos[primitive];
-    ulong order = (ulong)info->order_high << 32 | info->order_low;
-    if (instance >= 0)
-        order += (ulong)scene->infos[instance].order_high << 32 | scene->infos[instance].order_low;
-    return order;
-}
-
 // Lanes of `equal` whose hit on the primitive comes first in the order of definition.
 static inline vm wins_tie(const Hierarchy *scene, const BatchHits *hits, int first, vm equal, int primitive,
                           int instance)
 {
-    uint bits = vm_bits(equal), winners = 0;
-    for (; bits; bits &= bits - 1) {
+    uint winners = 0;
+    for (uint bits = vm_bits(equal); bits; bits &= bits - 1) {
         const int k = lowest_bit(bits);
-#if HAS_INSTANCES
-        const int other = hits->instance[first + k];
-#else
-        const int other = NO_HIT;
-#endif
-        if (hit_order(scene, instance, primitive) < hit_order(scene, other, hits->primitive[first + k]))
+        if (precedes_hit(scene, hits, first + k, primitive, instance))
             winners |= 1u << k;
     }
     return vm_from_bits(winners);
@@ -113,12 +48,9 @@ static inline vf tmin_after_last(const Hierarchy *scene, const BatchHits *hits, 
     if (!vm_any(VI_LOAD(&hits->last_primitive[first]) != (vi)(NO_HIT)))
         return tmin.v;
     for (int k = 0; k < LANES; k++) {
-        const int last = hits->last_primitive[first + k];
         const real t = hits->tmin[first + k];
-        const bool open = last != NO_HIT && t > 0.0f &&
-                          hit_order(scene, hits->last_instance[first + k], last) <
-                              hit_order(scene, instance, primitive);
-        tmin.s[k] = open ? as_float(as_int(t) - 1) : t;
+        if (follows_last(scene, hits, first + k, primitive, instance))
+            tmin.s[k] = as_float(as_int(t) - 1);
     }
     return tmin.v;
 }
@@ -194,6 +126,7 @@ OUTLINE void traverse(const Hierarchy *scene, const BatchRays *rays, BatchHits *
     }
 #endif
 #if HAS_BVH
+    mask = valid_rays(rays, mask);
     if (mask)
         traverse_scene(scene, rays, hits, mask, any_hit, opaque_only);
 #endif

@@ -2,211 +2,267 @@
 #ifndef CLRT_KERNELS_ACCEL_TRAVERSE_H
 #define CLRT_KERNELS_ACCEL_TRAVERSE_H
 
+#if HAS_MESH
+#include "accel/block.h"
+#endif
+
 // Depth of the hierarchy times the siblings that a level can leave behind.
 #define STACK_SIZE (BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1)
 
-// From so many rays of a batch on it pays to test box by box.
-#define PACKET_RAYS 20
+// From so many rays on a node's boxes are tested against a packet.
+#define PACKET_RAYS 16
 
-typedef union { int8 v; int s[8]; } Int8;
-typedef union { float8 v; float s[8]; } Float8;
-
-// Numbers of a ray for the box test: reciprocal direction and, as offsets in bytes into a node, the planes
-// that the ray meets first.
+// The rays of a batch in one space, as boxes and triangles want them.
 typedef struct {
-    real inv_x[BATCH], inv_y[BATCH], inv_z[BATCH];
-    uint near_x[BATCH], near_y[BATCH], near_z[BATCH];
-} BatchSlabs;
+    BatchSlabs slabs;
+#if HAS_MESH
+    BatchShear shear;
+    bool one_axis; // all have the same main axis
+#endif
+#if LANES > 1
+    PacketBounds bounds;
+#endif
+} BatchSpace;
 
 typedef struct {
     int node[STACK_SIZE];
     uint mask[STACK_SIZE];
-    float near[STACK_SIZE];
+    real near[STACK_SIZE];
     int size;
 } Stack;
 
-static inline uint sign_bits8(int8 m)
-{
-#if defined(__AVX__) && defined(__has_builtin)
-    return (uint)__builtin_ia32_movmskps256(as_float8(m));
-#else
-    // Bytes 0 or 255, gathered by a multiplication that moves bit 7k to bit 56 + k.
-    const ulong bytes = as_ulong(convert_char8(m)) & 0x0101010101010101UL;
-    return (uint)(bytes * 0x0102040810204080UL >> 56);
-#endif
-}
-
-static inline void prepare_slabs(const BatchRays *rays, BatchSlabs *slabs)
-{
-    for (int first = 0; first < BATCH; first += LANES) {
-        const vf x = (vf)(1.0f) / VF_LOAD(&rays->dir_x[first]);
-        const vf y = (vf)(1.0f) / VF_LOAD(&rays->dir_y[first]);
-        const vf z = (vf)(1.0f) / VF_LOAD(&rays->dir_z[first]);
-        VF_STORE(x, &slabs->inv_x[first]);
-        VF_STORE(y, &slabs->inv_y[first]);
-        VF_STORE(z, &slabs->inv_z[first]);
-        VU_STORE(x < (vf)(0.0f) ? (vu)(96u) : (vu)(0u), &slabs->near_x[first]);
-        VU_STORE(y < (vf)(0.0f) ? (vu)(128u) : (vu)(32u), &slabs->near_y[first]);
-        VU_STORE(z < (vf)(0.0f) ? (vu)(160u) : (vu)(64u), &slabs->near_z[first]);
-    }
-}
-
-// Which rays of a batch reach which child of a node, and how near the nearest of them is to it.
+// Where a walk stands: the node or leaf in hand and the rays that want it.
 typedef struct {
-    Int8 mask;
-    Float8 near;
-} ChildHits;
+    int node;
+    uint mask;
+} Visit;
 
-// Eight planes of a node, those that start `offset` bytes into it.
-static inline float8 planes_at(global const BvhNode *node, uint offset)
+// Rays with numbers that are not finite, or without a direction, meet nothing.
+static inline uint valid_rays(const BatchRays *rays, uint mask)
 {
-    return vload8(0, (global const float *)((global const char *)node + offset));
-}
-
-// One ray at a time against eight boxes: what it costs goes with the number of rays.
-static inline void test_children_by_ray(global const BvhNode *node, const BatchRays *rays,
-                                        const BatchSlabs *slabs, const BatchHits *hits, uint mask,
-                                        ChildHits *children)
-{
-    children->mask.v = (int8)(0);
-    children->near.v = (float8)(INFINITY);
-    for (uint rest = mask; rest; rest &= rest - 1) {
-        const int k = lowest_bit(rest);
-        const uint x = slabs->near_x[k], y = slabs->near_y[k], z = slabs->near_z[k];
-        const float8 near_x = (planes_at(node, x) - rays->org_x[k]) * slabs->inv_x[k];
-        const float8 near_y = (planes_at(node, y) - rays->org_y[k]) * slabs->inv_y[k];
-        const float8 near_z = (planes_at(node, z) - rays->org_z[k]) * slabs->inv_z[k];
-        const float8 far_x = (planes_at(node, 96 - x) - rays->org_x[k]) * slabs->inv_x[k];
-        const float8 far_y = (planes_at(node, 160 - y) - rays->org_y[k]) * slabs->inv_y[k];
-        const float8 far_z = (planes_at(node, 224 - z) - rays->org_z[k]) * slabs->inv_z[k];
-        float8 tnear = (float8)(0.0f), tfar = (float8)(hits->tfar[k]);
-        tnear = near_x > tnear ? near_x : tnear;
-        tnear = near_y > tnear ? near_y : tnear;
-        tnear = near_z > tnear ? near_z : tnear;
-        tfar = far_x < tfar ? far_x : tfar;
-        tfar = far_y < tfar ? far_y : tfar;
-        tfar = far_z < tfar ? far_z : tfar;
-        const int8 hit = tnear <= tfar * BOX_SLACK;
-        children->mask.v |= hit & (int8)((int)(1u << k));
-        const float8 seen = hit ? tnear : (float8)(INFINITY);
-        children->near.v = seen < children->near.v ? seen : children->near.v;
+    uint valid = 0;
+    for (int k = 0; k < BATCH; k += LANES) {
+        const v3 org = v3_make(VF_LOAD(&rays->org_x[k]), VF_LOAD(&rays->org_y[k]), VF_LOAD(&rays->org_z[k]));
+        const v3 dir = v3_make(VF_LOAD(&rays->dir_x[k]), VF_LOAD(&rays->dir_y[k]), VF_LOAD(&rays->dir_z[k]));
+        const v3 d = v3_abs(dir);
+        const vf sum = (fabs(org.x) + fabs(org.y) + fabs(org.z)) + (d.x + d.y + d.z);
+        valid |= vm_bits((sum < (vf)(INFINITY)) & (vf_max(d.x, vf_max(d.y, d.z)) > (vf)(0.0f))) << k;
     }
+    return valid & mask;
 }
 
-#if LANES > 1
-// One box at a time against LANES rays, the same arithmetic: what it costs goes with the number of children.
-static inline void test_children_by_box(global const BvhNode *node, const BatchRays *rays,
-                                        const BatchSlabs *slabs, const BatchHits *hits, uint mask,
-                                        ChildHits *children)
+OUTLINE void prepare_space(const BatchRays *rays, uint mask, BatchSpace *space)
 {
-    children->mask.v = (int8)(0);
-    children->near.v = (float8)(INFINITY);
-    for (int slot = 0; slot < BVH_WIDTH && node->lower_x[slot] <= node->upper_x[slot]; slot++) {
-        uint reached = 0;
-        vf near = (vf)(INFINITY);
-        for (int first = 0; first < BATCH; first += LANES) {
-            const vf org_x = VF_LOAD(&rays->org_x[first]), inv_x = VF_LOAD(&slabs->inv_x[first]);
-            const vf org_y = VF_LOAD(&rays->org_y[first]), inv_y = VF_LOAD(&slabs->inv_y[first]);
-            const vf org_z = VF_LOAD(&rays->org_z[first]), inv_z = VF_LOAD(&slabs->inv_z[first]);
-            const vf low_x = (node->lower_x[slot] - org_x) * inv_x;
-            const vf low_y = (node->lower_y[slot] - org_y) * inv_y;
-            const vf low_z = (node->lower_z[slot] - org_z) * inv_z;
-            const vf high_x = (node->upper_x[slot] - org_x) * inv_x;
-            const vf high_y = (node->upper_y[slot] - org_y) * inv_y;
-            const vf high_z = (node->upper_z[slot] - org_z) * inv_z;
-            const vm back_x = inv_x < (vf)(0.0f), back_y = inv_y < (vf)(0.0f), back_z = inv_z < (vf)(0.0f);
-            vf tnear = vf_max(back_x ? high_x : low_x, (vf)(0.0f));
-            vf tfar = vf_min(back_x ? low_x : high_x, VF_LOAD(&hits->tfar[first]));
-            tnear = vf_max(back_y ? high_y : low_y, tnear);
-            tfar = vf_min(back_y ? low_y : high_y, tfar);
-            tnear = vf_max(back_z ? high_z : low_z, tnear);
-            tfar = vf_min(back_z ? low_z : high_z, tfar);
-            const vm hit = tnear <= tfar * BOX_SLACK;
-            reached |= vm_bits(hit) << first;
-            near = vf_min(hit ? tnear : (vf)(INFINITY), near);
-        }
-        LanesF lanes;
-        real nearest = INFINITY;
-        lanes.v = near;
-        for (int k = 0; k < LANES; k++)
-            nearest = min(nearest, lanes.s[k]);
-        children->mask.s[slot] = (int)(reached & mask);
-        children->near.s[slot] = nearest;
-    }
-}
+    prepare_slabs(rays, &space->slabs);
+#if HAS_MESH
+    prepare_shear(rays, &space->shear);
+    uint other = 0;
+    const int axis = space->shear.axis_z[lowest_bit(mask)];
+    for (int k = 0; k < BATCH; k += LANES)
+        other |= vm_bits(VI_LOAD(&space->shear.axis_z[k]) != (vi)(axis)) << k;
+    space->one_axis = (other & mask) == 0;
 #endif
-
-// Tests the children of a node for the rays of mask and pushes those that are hit, nearest on top.
-// A NaN (a plane through the origin of a ray that runs within it) leaves its slab open on that side.
-OUTLINE void push_children(global const BvhNode *node, const BatchRays *rays, const BatchSlabs *slabs,
-                           const BatchHits *hits, uint mask, Stack *stack)
-{
-    ChildHits children;
 #if LANES > 1
-    if (popcount(mask) >= PACKET_RAYS)
-        test_children_by_box(node, rays, slabs, hits, mask, &children);
-    else
+    bound_packet(&space->slabs, mask, &space->bounds);
 #endif
-        test_children_by_ray(node, rays, slabs, hits, mask, &children);
-    const int bottom = stack->size;
-    for (uint rest = sign_bits8(children.mask.v != (int8)(0)); rest; rest &= rest - 1) {
-        const int slot = lowest_bit(rest);
-        const float near = children.near.s[slot];
-        int at = stack->size++;
-        for (; at > bottom && stack->near[at - 1] < near; at--) {
-            stack->node[at] = stack->node[at - 1];
-            stack->mask[at] = stack->mask[at - 1];
-            stack->near[at] = stack->near[at - 1];
-        }
-        stack->node[at] = node->child[slot];
-        stack->mask[at] = (uint)children.mask.s[slot];
-        stack->near[at] = near;
-    }
 }
 
-// Goes down to the next leaf that rays want: false where there is none any more. Places of its primitives are
-// *first .. *end - 1; *wanted: the rays that reach it.
-static inline bool next_leaf(const Hierarchy *scene, const BatchRays *rays, const BatchSlabs *slabs,
-                             const BatchHits *hits, uint alive, Stack *stack, uint *wanted, uint *first,
-                             uint *end)
+static inline void prefetch_lines(global const void *record, int lines)
+{
+#if BATCH > 1 && defined(__has_builtin)
+    for (int i = 0; i < lines; i++)
+        __builtin_prefetch((const void *)((size_t)record + 64 * (size_t)i));
+#endif
+}
+
+// Starts to load what a child refers to, long before it is popped.
+static inline void prefetch_child(const Hierarchy *scene, int child)
+{
+    if (child >= 0)
+        prefetch_lines(&scene->nodes[child], sizeof(BvhNode) / 64);
+#if HAS_MESH
+    else if (!(child & 1))
+        prefetch_lines(&scene->blocks[~(uint)child >> 1], sizeof(TriangleBlock) / 64);
+#endif
+}
+
+// Puts a child on the stack, above those that are farther and were pushed after `bottom`.
+static inline void push_sorted(const Hierarchy *scene, Stack *stack, int bottom, int node, uint mask, real near)
+{
+    prefetch_child(scene, node);
+    int at = stack->size++;
+    for (; at > bottom && stack->near[at - 1] < near; at--) {
+        stack->node[at] = stack->node[at - 1];
+        stack->mask[at] = stack->mask[at - 1];
+        stack->near[at] = stack->near[at - 1];
+    }
+    stack->node[at] = node;
+    stack->mask[at] = mask;
+    stack->near[at] = near;
+}
+
+static inline bool pop(Stack *stack, uint alive, Visit *visit)
 {
     while (stack->size > 0) {
-        const int node = stack->node[--stack->size];
-        *wanted = stack->mask[stack->size] & alive;
-        if (!*wanted)
-            continue;
-        if (node < 0) {
-            const uint leaf = ~(uint)node;
-            *first = leaf >> 4;
-            *end = *first + (leaf & 15u);
+        visit->node = stack->node[--stack->size];
+        visit->mask = stack->mask[stack->size] & alive;
+        if (visit->mask)
             return true;
-        }
-        push_children(&scene->nodes[node], rays, slabs, hits, *wanted, stack);
     }
     return false;
 }
 
-// Walks the hierarchy of one object, or of the whole scene where nothing is instanced. Returns the rays that
-// hit, where any hit will do.
-static inline uint traverse_object(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
-                                   int root, int instance, const bool any_hit, const bool opaque_only)
+// Pushes the children of a node, `enters` and `masks` by slot, of which `reached` are meant; the nearest is
+// on top.
+static inline void push_children(const Hierarchy *scene, global const BvhNode *node, uint reached, const Int8 *masks, const Float8 *enters,
+                                 Stack *stack)
 {
-    BatchSlabs slabs;
+    const int bottom = stack->size;
+    for (; reached; reached &= reached - 1) {
+        const int slot = lowest_bit(reached);
+        push_sorted(scene, stack, bottom, node->child[slot], (uint)masks->s[slot], enters->s[slot]);
+    }
+}
+
+#if LANES > 1
+static inline void descend_packet(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, const BatchHits *hits,
+                                  uint mask, Stack *stack)
+{
+    Float8 enters;
+    const int bottom = stack->size;
+    for (uint some = test_boxes_bounds(node, &space->bounds, &enters.v); some; some &= some - 1) {
+        const int slot = lowest_bit(some);
+        const uint reached = test_box_packet(node, slot, &space->slabs, &space->bounds, hits->tfar, mask);
+        if (reached)
+            push_sorted(scene, stack, bottom, node->child[slot], reached, enters.s[slot]);
+    }
+}
+#endif
+
+// One ray after the other: what it costs goes with their number.
+static inline void descend_rays(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, const BatchHits *hits,
+                                uint mask, Stack *stack)
+{
+    Int8 masks;
+    Float8 enters;
+    masks.v = (int8)(0);
+    enters.v = (float8)(INFINITY);
+    for (uint rest = mask; rest; rest &= rest - 1) {
+        const int k = lowest_bit(rest);
+        float8 near;
+        const int8 hit = test_boxes(node, &space->slabs, k, hits->tfar[k], &near);
+        masks.v |= hit & (int8)((int)(1u << k));
+        const float8 seen = hit ? near : (float8)(INFINITY);
+        enters.v = seen < enters.v ? seen : enters.v;
+    }
+    push_children(scene, node, sign_bits8(masks.v != (int8)(0)), &masks, &enters, stack);
+}
+
+// Pushes the children of a node that rays of mask reach.
+static inline void descend(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, BatchHits *hits, uint mask,
+                           Stack *stack)
+{
+    COUNT_NODE(hits, popcount(mask));
+#if LANES > 1
+    if (space->bounds.usable && popcount(mask) >= PACKET_RAYS)
+        descend_packet(scene, node, space, hits, mask, stack);
+    else
+#endif
+        descend_rays(scene, node, space, hits, mask, stack);
+}
+
+// What the rays of mask meet in a leaf; returns those that it stops.
+static inline uint test_leaf(const Hierarchy *scene, const BatchRays *rays, const BatchSpace *space,
+                             BatchHits *hits, Visit visit, int instance, bool opaque_only)
+{
+    const int index = (int)(~(uint)visit.node >> 1);
+    COUNT_LEAF(hits, popcount(visit.mask));
+#if HAS_MESH
+    if (!(visit.node & 1))
+        return test_block(scene, &space->shear, hits, visit.mask, index, instance, opaque_only, space->one_axis);
+#endif
+#if SHAPE_KINDS > HAS_PLANE
+    if (!opaque_only || (scene->primitives[index].kind & PRIMITIVE_OPAQUE))
+        return test_primitive(scene, rays, hits, visit.mask, index, instance);
+#endif
+    (void)index; // nothing can be hit where every feature of shapes is off
+    return 0;
+}
+
+#if BATCH == 1
+// The walk of one ray; returns 1 where it was stopped and any hit will do.
+static inline uint walk(const Hierarchy *scene, const BatchRays *rays, const BatchSpace *space,
+                        BatchHits *hits, uint mask, int root, int instance, bool any_hit, bool opaque_only)
+{
+    int nodes[STACK_SIZE];
+    real nears[STACK_SIZE];
+    int size = 0;
+    Visit visit;
+    visit.node = root;
+    visit.mask = mask;
+    for (;;) {
+        if (visit.node >= 0) {
+            global const BvhNode *node = &scene->nodes[visit.node];
+            Float8 enters;
+            COUNT_NODE(hits, 1);
+            uint reached = sign_bits8(test_boxes(node, &space->slabs, 0, hits->tfar[0], &enters.v));
+            const int bottom = size;
+            for (; reached; reached &= reached - 1) {
+                const int slot = lowest_bit(reached);
+                const real near = enters.s[slot];
+                int at = size++;
+                prefetch_child(scene, node->child[slot]);
+                for (; at > bottom && nears[at - 1] < near; at--) {
+                    nodes[at] = nodes[at - 1];
+                    nears[at] = nears[at - 1];
+                }
+                nodes[at] = node->child[slot];
+                nears[at] = near;
+            }
+        } else if (test_leaf(scene, rays, space, hits, visit, instance, opaque_only) && any_hit) {
+            return 1;
+        }
+        const real end = hits->tfar[0] * BOX_SLACK;
+        do {
+            if (size == 0)
+                return 0;
+            size--;
+        } while (nears[size] > end);
+        visit.node = nodes[size];
+    }
+}
+#else
+// The walk of a batch; returns the rays that were stopped, where any hit will do.
+static inline uint walk(const Hierarchy *scene, const BatchRays *rays, const BatchSpace *space,
+                        BatchHits *hits, uint mask, int root, int instance, bool any_hit, bool opaque_only)
+{
     Stack stack;
-    uint alive = mask, wanted, first, end;
-    prepare_slabs(rays, &slabs);
+    Visit visit;
+    uint alive = mask;
+    visit.node = root;
+    visit.mask = mask;
     stack.size = 0;
-    push_children(&scene->nodes[root], rays, &slabs, hits, mask, &stack);
-    while (next_leaf(scene, rays, &slabs, hits, alive, &stack, &wanted, &first, &end)) {
-        for (uint i = first; i < end; i++) {
-            if (opaque_only && !(scene->primitives[i].kind & PRIMITIVE_OPAQUE))
-                continue;
-            const uint found = test_primitive(scene, rays, hits, wanted & alive, (int)i, instance);
+    do {
+        if (visit.node >= 0) {
+            descend(scene, &scene->nodes[visit.node], space, hits, visit.mask, &stack);
+        } else {
+            const uint found = test_leaf(scene, rays, space, hits, visit, instance, opaque_only);
             if (any_hit)
                 alive &= ~found;
         }
-    }
+    } while (pop(&stack, alive, &visit));
     return mask & ~alive;
+}
+#endif
+
+// Walks the hierarchy of one object, or of the whole scene where nothing is instanced. Returns the rays that
+// were stopped, where any hit will do.
+OUTLINE uint traverse_object(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+                             int root, int instance, bool any_hit, bool opaque_only)
+{
+    BatchSpace space;
+    prepare_space(rays, mask, &space);
+    return walk(scene, rays, &space, hits, mask, root, instance, any_hit, opaque_only);
 }
 
 #if HAS_INSTANCES
@@ -214,8 +270,6 @@ static inline uint traverse_object(const Hierarchy *scene, const BatchRays *rays
 static inline void enter_instance(const PrimitiveLanes *p, const BatchRays *rays, uint mask, BatchRays *inner)
 {
     for (int first = 0; first < BATCH; first += LANES) {
-        if (!(mask >> first & ((1u << LANES) - 1u)))
-            continue;
         const v3 org = v3_make(VF_LOAD(&rays->org_x[first]), VF_LOAD(&rays->org_y[first]),
                                VF_LOAD(&rays->org_z[first]));
         const v3 dir = v3_make(VF_LOAD(&rays->dir_x[first]), VF_LOAD(&rays->dir_y[first]),
@@ -230,37 +284,47 @@ static inline void enter_instance(const PrimitiveLanes *p, const BatchRays *rays
     }
 }
 
-// The top-level hierarchy, whose leaves hold primitives and instances of objects.
-static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
-                                  const bool any_hit, const bool opaque_only)
+static inline uint traverse_instance(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+                                     int index, bool any_hit, bool opaque_only)
 {
-    BatchSlabs slabs;
     BatchRays inner;
+    const PrimitiveLanes map = primitive_splat(&scene->primitives[index]);
+    enter_instance(&map, rays, mask, &inner);
+    return traverse_object(scene, &inner, hits, mask, as_int(scene->primitives[index].p0), index, any_hit,
+                           opaque_only);
+}
+
+// The top-level hierarchy, whose leaves hold instances of objects beside everything else.
+static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
+                                  bool any_hit, bool opaque_only)
+{
+    BatchSpace space;
     Stack stack;
-    uint alive = mask, wanted, first, end;
-    prepare_slabs(rays, &slabs);
+    Visit visit;
+    uint alive = mask;
+    prepare_space(rays, mask, &space);
+    visit.node = (int)scene->root;
+    visit.mask = mask;
     stack.size = 0;
-    push_children(&scene->nodes[scene->root], rays, &slabs, hits, mask, &stack);
-    while (next_leaf(scene, rays, &slabs, hits, alive, &stack, &wanted, &first, &end)) {
-        for (uint i = first; i < end && (wanted & alive); i++) {
-            global const Primitive *p = &scene->primitives[i];
-            uint found = 0;
-            if ((p->kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE) {
-                const PrimitiveLanes map = primitive_splat(p);
-                enter_instance(&map, rays, wanted & alive, &inner);
-                found = traverse_object(scene, &inner, hits, wanted & alive, as_int(p->p0), (int)i, any_hit,
-                                        opaque_only);
-            } else if (!opaque_only || (p->kind & PRIMITIVE_OPAQUE)) {
-                found = test_primitive(scene, rays, hits, wanted & alive, (int)i, NO_HIT);
-            }
-            if (any_hit)
-                alive &= ~found;
+    do {
+        if (visit.node >= 0) {
+            descend(scene, &scene->nodes[visit.node], &space, hits, visit.mask, &stack);
+            continue;
         }
-    }
+        const uint leaf = ~(uint)visit.node;
+        uint found;
+        if (!(leaf & 1u) &&
+            (scene->primitives[leaf >> 1].kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE)
+            found = traverse_instance(scene, rays, hits, visit.mask, (int)(leaf >> 1), any_hit, opaque_only);
+        else
+            found = test_leaf(scene, rays, &space, hits, visit, NO_HIT, opaque_only);
+        if (any_hit)
+            alive &= ~found;
+    } while (pop(&stack, alive, &visit));
 }
 #else
 static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
-                                  const bool any_hit, const bool opaque_only)
+                                  bool any_hit, bool opaque_only)
 {
     traverse_object(scene, rays, hits, mask, (int)scene->root, NO_HIT, any_hit, opaque_only);
 }

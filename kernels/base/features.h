@@ -7,6 +7,21 @@
 #define HAS_UV 1
 #endif
 
+#if HAS_MESH_UVS && !HAS_UV
+#undef HAS_UV
+#define HAS_UV 1
+#endif
+
+#if (HAS_MESH_NORMALS || HAS_MESH_UVS) && !HAS_MESH
+#undef HAS_MESH
+#define HAS_MESH 1
+#endif
+
+#if HAS_MESH && !HAS_BVH
+#undef HAS_BVH
+#define HAS_BVH 1
+#endif
+
 #if HAS_TRIANGLE_EXTRA && !HAS_TRIANGLE
 #undef HAS_TRIANGLE
 #define HAS_TRIANGLE 1

@@ -101,7 +101,7 @@ static inline void surface_select(vm m, const SurfaceLanes *from, SurfaceLanes *
     to->u_whole = m ? from->u_whole : to->u_whole;
     to->v_whole = m ? from->v_whole : to->v_whole;
 #endif
-#if HAS_TRIANGLE
+#if HAS_TRIANGLE || HAS_MESH
     to->b1 = m ? from->b1 : to->b1;
     to->b2 = m ? from->b2 : to->b2;
 #endif
@@ -114,7 +114,7 @@ static inline SurfaceLanes surface_zero(void)
 #if HAS_UV
     s.u = s.v = s.u_whole = s.v_whole = (vf)(0.0f);
 #endif
-#if HAS_TRIANGLE
+#if HAS_TRIANGLE || HAS_MESH
     s.b1 = s.b2 = (vf)(0.0f);
 #endif
     return s;

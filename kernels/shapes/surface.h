@@ -17,7 +17,7 @@ typedef struct {
     vf u, v;             // texture coordinates; of a triangle b1, b2
     vf u_whole, v_whole; // whole numbers to be added to u and v: 0 but for planes
 #endif
-#if HAS_TRIANGLE
+#if HAS_TRIANGLE || HAS_MESH
     vf b1, b2; // barycentric weights of the second and third vertex of a triangle
 #endif
 } SurfaceLanes;

@@ -8,11 +8,10 @@
 // Deepest wide node is at most this many levels below its root; the builder keeps the promise and the
 // traversal stack (BVH_WIDTH - 1 entries a level) relies on it.
 #define BVH_MAX_DEPTH 48
-#define BVH_MAX_LEAF 1
 
 // Lower and upper planes, in units of the space that the hierarchy lives in; an empty slot has
-// lower +infinity and upper -infinity, which no ray hits. child >= 0: index of a node; < 0:
-// ~((first << 4) | count), count primitives from first on.
+// lower +infinity and upper -infinity, which no ray hits. Filled slots come first. child >= 0: index of a
+// node; < 0: a leaf, ~(index << 1) of one primitive, or ~(index << 1 | 1) of one TriangleBlock.
 typedef struct BvhNode {
     f32 lower_x[BVH_WIDTH];
     f32 lower_y[BVH_WIDTH];

@@ -45,11 +45,13 @@ typedef struct TextureRecord {
 LAYOUT_SIZE(TextureRecord, 48);
 
 #define NO_INDEX 0xffffffffu
+// In the material of a primitive or of a run of faces: an instance that names a material goes before it.
+#define MATERIAL_INHERITED 0x80000000u
 
 // Beside each primitive, at the same index. The place of a hit in the order of definition, which decides
 // ties, is the order of its primitive, plus that of its instance if it has one.
 typedef struct PrimitiveInfo {
-    u32 material; // index; NO_INDEX: that of the instance
+    u32 material; // index | MATERIAL_INHERITED; of an instance: index, or NO_INDEX where it names none
     u32 extra;    // triangle with normals or uvs: index of a TriangleExtra; else NO_INDEX
     u32 order_low;
     u32 order_high;

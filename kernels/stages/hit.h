@@ -9,6 +9,9 @@
 #if HAS_CHECKER3D
 #include "shapes/object_frame.h"
 #endif
+#if HAS_MESH
+#include "shapes/mesh.h"
+#endif
 #if HAS_CHECKER || HAS_CHECKER3D
 #include "texture/checker.h"
 #endif
@@ -19,6 +22,7 @@
 #define MATERIAL_NUMBERS 28
 #define TEXTURE_NUMBERS 12
 #define EXTRA_NUMBERS 16
+#define RUN_NUMBERS 8
 
 // What shading reads of the scene, beside the hierarchy.
 typedef struct {
@@ -29,8 +33,17 @@ typedef struct {
 #if HAS_TRIANGLE_EXTRA
     global const TriangleExtra *extras;
 #endif
+#if HAS_MESH_NORMALS || HAS_MESH_UVS
+    global const int *mesh_indices;
+#endif
+#if HAS_MESH_NORMALS
+    global const real *mesh_normals; // 3 a normal
+#endif
+#if HAS_MESH_UVS
+    global const real *mesh_uvs; // 2 a vertex
+#endif
 #if HAS_CHECKER3D
-    global const ObjectFrame *frames; // one a primitive
+    global const ObjectFrame *frames; // one a primitive, then one a mesh
 #endif
 } Shading;
 
@@ -40,7 +53,7 @@ typedef struct {
     v3 error;     // bound of the error of each coordinate of point
     v3 ng, ns;    // unit, turned to the ray's origin
     vm inside;    // the ray met the surface from its inner side
-    vi primitive; // a valid index in every lane
+    vi primitive; // a valid index or slot in every lane, as in BatchHits
     Row material;
 #if HAS_UV
     vf u, v;
@@ -64,13 +77,16 @@ static inline PrimitiveLanes primitive_gather(const Row *row)
     return p;
 }
 
-#if HAS_TRIANGLE_EXTRA
+#if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
 // Carries a normal out of a space q = A (p - c): the gradient of a function of q.
 static inline v3 carry_normal(const PrimitiveLanes *map, v3 n)
 {
     return v3_fma(map->row2, n.z, v3_fma(map->row1, n.y, v3_scale(map->row0, n.x)));
 }
 
+#endif
+
+#if HAS_TRIANGLE_EXTRA
 // Normals and texture coordinates that vertices bring along, in the lanes that have them.
 OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, const SurfaceLanes *surface,
                                    v3 *normal, Hit *hit)
@@ -89,12 +105,102 @@ OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, const Sur
 }
 #endif
 
+#if HAS_MESH
+// The faces that lanes of `on` hit, at their slots.
+typedef struct {
+    vm on;
+    FaceLanes face;
+    Row run;
+} MeshHit;
+
+OUTLINE MeshHit mesh_hit_make(const Hierarchy *scene, vi primitive)
+{
+    MeshHit m;
+    LanesI face, run;
+    m.on = (primitive & HIT_MESH) != (vi)(0);
+    m.face = face_gather(scene->blocks, m.on ? primitive & (HIT_MESH - 1) : (vi)(0));
+    face.v = m.face.face;
+    for (int k = 0; k < LANES; k++)
+        run.s[k] = (int)run_of_face(scene->mesh_runs, scene->mesh_run_count, (uint)face.s[k]);
+    m.run = row_make(scene->mesh_runs, run.v, RUN_NUMBERS);
+    return m;
+}
+
+static inline vm mesh_flag(const MeshHit *m, uint flag)
+{
+    return m->on & ((row_int(&m->run, 4) & (int)flag) != (vi)(0));
+}
+
+OUTLINE void mesh_surface(const MeshHit *m, const RayLanes *ray, SurfaceLanes *surface)
+{
+    SurfaceLanes own = *surface;
+    surface_mesh_face(&m->face, ray->org, ray->dir, &own);
+    own.ng = v3_select(mesh_flag(m, MESH_MIRRORED), v3_neg(own.ng), own.ng);
+    surface_select(m->on, &own, surface);
+}
+
+#if HAS_MESH_NORMALS || HAS_MESH_UVS
+// Place in mesh_indices of the face's first corner, where the run has such corners (number `field` of its
+// record); has: those lanes.
+static inline vi mesh_corner(const MeshHit *m, int field, vm has)
+{
+    const vi corner = row_int(&m->run, field) + 3 * (m->face.face - row_int(&m->run, 0));
+    return has ? corner : (vi)(0);
+}
+#endif
+
+#if HAS_MESH_NORMALS
+// The mean of the normals at the face's vertices, not of unit length, in the lanes that have them.
+OUTLINE void mesh_normal(const Shading *shading, const MeshHit *m, const SurfaceLanes *surface, v3 *normal)
+{
+    vm has = mesh_flag(m, MESH_NORMALS);
+    if (!vm_any(has))
+        return;
+    const vi corner = mesh_corner(m, 5, has);
+    const vi first = vi_gather(shading->mesh_indices, corner);
+    has = has & (first != (vi)(-1));
+    v3 n[3];
+    for (int k = 0; k < 3; k++) {
+        const vi index = vi_gather(shading->mesh_indices, corner + k);
+        const vi at = has ? 3 * index : (vi)(0);
+        n[k] = v3_make(vf_gather(shading->mesh_normals, at), vf_gather(shading->mesh_normals, at + 1),
+                       vf_gather(shading->mesh_normals, at + 2));
+    }
+    const vf b0 = (1.0f - surface->b1) - surface->b2;
+    *normal = v3_select(has, v3_fma(n[2], surface->b2, v3_fma(n[1], surface->b1, v3_scale(n[0], b0))), *normal);
+}
+#endif
+
+#if HAS_MESH_UVS
+// Texture coordinates of the lanes whose faces bring them along.
+OUTLINE void mesh_uv(const Shading *shading, const MeshHit *m, const SurfaceLanes *surface, Hit *hit)
+{
+    vm has = mesh_flag(m, MESH_UVS);
+    if (!vm_any(has))
+        return;
+    const vi corner = mesh_corner(m, 6, has);
+    const vi first = vi_gather(shading->mesh_indices, corner);
+    has = has & (first != (vi)(-1));
+    const vf weights[3] = { (1.0f - surface->b1) - surface->b2, surface->b1, surface->b2 };
+    vf u = (vf)(0.0f), v = (vf)(0.0f);
+    for (int k = 0; k < 3; k++) {
+        const vi index = vi_gather(shading->mesh_indices, corner + k);
+        const vi at = has ? 2 * index : (vi)(0);
+        u = fma(vf_gather(shading->mesh_uvs, at), weights[k], u);
+        v = fma(vf_gather(shading->mesh_uvs, at + 1), weights[k], v);
+    }
+    hit->u = has ? u : hit->u;
+    hit->v = has ? v : hit->v;
+}
+#endif
+#endif
+
 #if HAS_INSTANCES
 // The instances of the lanes; those without one stand in for the first of the list.
 typedef struct {
     vm placed;
     PrimitiveLanes map;
-    vi material;
+    vi material; // that the instance names, or NO_INDEX
 } Placement;
 
 static inline Placement placement_make(const Hierarchy *scene, vi instance)
@@ -130,6 +236,86 @@ static inline void placement_leave(const Placement *p, v3 org, v3 dir, vf t, Sur
 }
 #endif
 
+// What the lanes hit: a primitive or a face.
+typedef struct {
+    vm mesh;      // lanes that hit a face
+    vi primitive; // a valid index in every lane
+#if SHAPE_KINDS > 0
+    Row record, info;
+    PrimitiveLanes shape;
+#endif
+    vi material; // as PrimitiveInfo.material
+#if HAS_CHECKER3D
+    vi frame;
+#endif
+#if HAS_MESH
+    MeshHit face;
+#endif
+} Target;
+
+OUTLINE Target target_make(const Hierarchy *scene, vi primitive)
+{
+    Target t;
+    const vi valid = primitive < (vi)(0) ? (vi)(0) : primitive;
+    t.mesh = (vm)(0);
+    t.primitive = valid;
+#if HAS_MESH
+    t.face = mesh_hit_make(scene, valid);
+    t.mesh = t.face.on;
+    t.primitive = t.mesh ? (vi)(0) : valid;
+#endif
+    t.material = (vi)(0);
+#if SHAPE_KINDS > 0
+    t.record = row_make(scene->primitives, t.primitive, PRIMITIVE_NUMBERS);
+    t.info = row_make(scene->infos, t.primitive, INFO_NUMBERS);
+    t.shape = primitive_gather(&t.record);
+    t.material = row_int(&t.info, 0);
+#endif
+#if HAS_CHECKER3D
+    t.frame = t.primitive;
+#endif
+#if HAS_MESH
+    t.material = t.mesh ? row_int(&t.face.run, 1) : t.material;
+#if HAS_CHECKER3D
+    t.frame = t.mesh ? row_int(&t.face.run, 7) : t.frame;
+#endif
+#endif
+    return t;
+}
+
+// surface: in the space of the shape.
+static inline void target_surface(const Target *target, const RayLanes *ray, vf t, SurfaceLanes *surface)
+{
+#if SHAPE_KINDS > 0
+    surface_primitive(row_int(&target->record, 14) & (int)PRIMITIVE_KIND_MASK, &target->shape, ray, t, surface);
+#else
+    *surface = surface_zero();
+#endif
+#if HAS_MESH
+    if (vm_any(target->mesh))
+        mesh_surface(&target->face, ray, surface);
+#endif
+}
+
+#if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
+// The shading normal in the space of the shape, of any length, and the texture coordinates of the vertices.
+static inline v3 target_normal(const Target *target, const Shading *shading, const SurfaceLanes *surface,
+                               Hit *hit)
+{
+    v3 normal = surface->ng;
+#if HAS_TRIANGLE_EXTRA
+    const vi extra = row_int(&target->info, 1);
+    const vm has = (extra >= (vi)(0)) & !target->mesh;
+    if (vm_any(has))
+        hit_interpolate(shading, extra, has, surface, &normal, hit);
+#endif
+#if HAS_MESH_NORMALS
+    mesh_normal(shading, &target->face, surface, &normal);
+#endif
+    return normal;
+}
+#endif
+
 // The surface at distance t along the rays of the lanes. Lanes without a hit give numbers without meaning.
 OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 dir, vf t, vi primitive,
                      vi instance)
@@ -144,34 +330,34 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     ray.inward = (vm)(0);
     hit.dir = dir;
     hit.primitive = primitive < (vi)(0) ? (vi)(0) : primitive;
-    const Row record = row_make(scene->primitives, hit.primitive, PRIMITIVE_NUMBERS);
-    const Row info = row_make(scene->infos, hit.primitive, INFO_NUMBERS);
-    const PrimitiveLanes shape = primitive_gather(&record);
-    vi material = row_int(&info, 0);
+    const Target target = target_make(scene, primitive);
+    const vi own = target.material & (int)~MATERIAL_INHERITED;
+    vi material = own;
 #if HAS_INSTANCES
     const Placement placement = placement_make(scene, instance);
     placement_enter(&placement, &ray);
-    material = (placement.placed & (material < (vi)(0))) ? placement.material : material;
+    const vm named = placement.placed & (target.material < (vi)(0)) & (placement.material >= (vi)(0));
+    material = named ? placement.material : own;
 #endif
-    surface_primitive(row_int(&record, 14) & (int)PRIMITIVE_KIND_MASK, &shape, &ray, t, &surface);
+    target_surface(&target, &ray, t, &surface);
 #if HAS_UV
     hit.u = surface.u;
     hit.v = surface.v;
     hit.u_whole = surface.u_whole;
     hit.v_whole = surface.v_whole;
 #endif
-#if HAS_TRIANGLE_EXTRA
-    v3 normal = surface.ng;
-    const vi extra = row_int(&info, 1);
-    if (vm_any(extra >= (vi)(0)))
-        hit_interpolate(shading, extra, extra >= (vi)(0), &surface, &normal, &hit);
+#if HAS_MESH_UVS && HAS_UV
+    mesh_uv(shading, &target.face, &surface, &hit);
+#endif
+#if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
+    v3 normal = target_normal(&target, shading, &surface, &hit);
 #endif
 #if HAS_CHECKER3D
-    hit.object = object_point(shading->frames, hit.primitive, surface.p, surface.ng);
+    hit.object = object_point(shading->frames, target.frame, surface.p, surface.ng);
 #endif
 #if HAS_INSTANCES
     placement_leave(&placement, org, dir, t, &surface);
-#if HAS_TRIANGLE_EXTRA
+#if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
     normal = v3_select(placement.placed, carry_normal(&placement.map, normal), normal);
 #endif
 #endif
@@ -179,13 +365,13 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     hit.error = surface.error;
     hit.inside = v3_dot(dir, surface.ng) > (vf)(0.0f);
     hit.ng = v3_select(hit.inside, v3_neg(surface.ng), surface.ng);
-#if HAS_TRIANGLE_EXTRA
+#if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
     const v3 ns = v3_normalize(normal);
     hit.ns = v3_select(v3_dot(ns, hit.ng) < (vf)(0.0f), v3_neg(ns), ns);
 #else
     hit.ns = hit.ng;
 #endif
-    hit.material = row_make(shading->materials, material < (vi)(0) ? (vi)(0) : material, MATERIAL_NUMBERS);
+    hit.material = row_make(shading->materials, material, MATERIAL_NUMBERS);
     return hit;
 }
 

@@ -121,6 +121,18 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_TRIANGLE_EXTRA
                          global const TriangleExtra *extras,
 #endif
+#if HAS_MESH
+                         global const TriangleBlock *blocks, global const MeshRun *mesh_runs,
+#endif
+#if HAS_MESH_NORMALS || HAS_MESH_UVS
+                         global const int *mesh_indices,
+#endif
+#if HAS_MESH_NORMALS
+                         global const real *mesh_normals,
+#endif
+#if HAS_MESH_UVS
+                         global const real *mesh_uvs,
+#endif
 #if HAS_LIGHTS
                          global const LightRecord *lights,
 #endif
@@ -152,6 +164,20 @@ kernel void render_tiles(constant RenderParams *params,
 #endif
 #if HAS_BVH
     scene.nodes = nodes;
+#endif
+#if HAS_MESH
+    scene.blocks = blocks;
+    scene.mesh_runs = mesh_runs;
+    scene.mesh_run_count = params->mesh_run_count;
+#endif
+#if HAS_MESH_NORMALS || HAS_MESH_UVS
+    shading.mesh_indices = mesh_indices;
+#endif
+#if HAS_MESH_NORMALS
+    shading.mesh_normals = mesh_normals;
+#endif
+#if HAS_MESH_UVS
+    shading.mesh_uvs = mesh_uvs;
 #endif
 #if HAS_CHECKER || HAS_CHECKER3D
     shading.textures = textures;

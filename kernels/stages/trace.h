@@ -83,13 +83,11 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
                 mask &= ~(1u << k);
                 continue;
             }
-            uint material = scene->infos[primitive].material;
 #if HAS_INSTANCES
             instance = hits->instance[k];
-            if (material == NO_INDEX)
-                material = scene->infos[instance].material;
             hits->instance[k] = NO_HIT;
 #endif
+            const uint material = hit_material(scene, instance, primitive);
             bool some = false;
             for (int c = 0; c < 3; c++) {
                 gain[c * BATCH + k] *= materials[material].transmit[c];

@@ -4,7 +4,8 @@
 # - every ```scene-later block has no error but "not supported yet";
 # - every scene in REPO/scenes is one without errors;
 # - every scene has its row in the manual's table.
-# A block marked ```scene NAME is kept as NAME, so that blocks after it can include it.
+# A block marked ```scene NAME is kept as NAME, so that blocks after it can include it; one marked
+# ```file NAME is kept for them and is no scene.
 set -u
 
 if [ $# -ne 2 ]; then
@@ -30,12 +31,13 @@ fail() {
 awk -v folder="$folder" '
     block == "" && /^```/ {
         kind = substr($1, 4)
-        block = (kind == "scene" || kind == "scene-later") ? "kept" : "other"
+        block = (kind == "scene" || kind == "scene-later" || kind == "file") ? "kept" : "other"
         start = NR
         if (block == "kept") {
             file = folder "/" (NF > 1 ? $2 : "line_" NR ".txt")
             printf "" > file
-            print kind, NR, file
+            if (kind != "file")
+                print kind, NR, file
         }
         next
     }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,8 +14,13 @@
 #ifdef _OPENMP
 #include <omp.h>
 #endif
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
 
 #include "accel/bvh.h"
+#include "shared/mesh.h"
 
 static f64 random_unit(u64 *state)
 {
@@ -49,15 +55,28 @@ static Box *random_boxes(u32 count, f64 spread, f64 size)
     return boxes;
 }
 
-static Bvh build(const Box *boxes, u32 count, u32 first_node, u32 first_primitive)
+static Bvh build(const BvhInput *input)
 {
     Bvh bvh = {.nodes = NULL};
     Error error = {0};
-    if (!bvh_build(boxes, count, first_node, first_primitive, &bvh, &error))
+    if (!bvh_build(input, &bvh, &error))
         fail_msg("%s", error.text);
-    assert_int_equal(bvh.count, count);
+    assert_int_equal(bvh.single_count, input->singles);
     return bvh;
 }
+
+#if defined __linux__
+// Bytes of address space that the process has now.
+static rlim_t address_space(void)
+{
+    FILE *file = fopen("/proc/self/statm", "r");
+    assert_non_null(file);
+    unsigned long pages;
+    assert_int_equal(fscanf(file, "%lu", &pages), 1);
+    fclose(file);
+    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+}
+#endif
 
 static Box slot_box(const BvhNode *node, int slot)
 {
@@ -75,81 +94,110 @@ static bool contains(const Box *outer, const Box *inner)
 
 typedef struct Walk {
     const Bvh *bvh;
-    const Box *boxes;
-    u32 first_node, first_primitive;
+    const BvhInput *input;
     u32 deepest;
-    u32 nodes_seen;
-    unsigned char *in_leaf; // of each place of the leaves
+    u32 nodes_seen, singles_seen, blocks_seen;
+    unsigned char *seen; // of each box of the input: whether it is in a leaf
 } Walk;
 
+static void check_box(Walk *walk, u32 index, const Box *bounds)
+{
+    assert_true(index < walk->input->count);
+    assert_false(walk->seen[index]);
+    walk->seen[index] = 1;
+    assert_true(contains(bounds, &walk->input->boxes[index]));
+}
+
+// The leaves are numbered in the order in which a walk meets them.
 static void check_leaf(Walk *walk, u32 leaf, const Box *bounds)
 {
-    const u32 first = (leaf >> 4) - walk->first_primitive, count = leaf & 15u;
-    assert_in_range(count, 1, BVH_MAX_LEAF);
-    for (u32 place = first; place < first + count; place++) {
-        assert_true(place < walk->bvh->count);
-        assert_false(walk->in_leaf[place]);
-        walk->in_leaf[place] = 1;
-        assert_true(contains(bounds, &walk->boxes[walk->bvh->order[place]]));
+    if (leaf & 1) {
+        const u32 block = (leaf >> 1) - walk->input->first_block;
+        assert_int_equal(block, walk->blocks_seen++);
+        const u32 *ids = walk->bvh->blocks + (size_t)BLOCK_WIDTH * block;
+        u32 used = 0;
+        for (; used < BLOCK_WIDTH && ids[used] != UINT32_MAX; used++) {
+            assert_true(ids[used] >= walk->input->singles);
+            check_box(walk, ids[used], bounds);
+        }
+        assert_in_range(used, 1, BLOCK_WIDTH);
+        for (u32 i = used; i < BLOCK_WIDTH; i++)
+            assert_int_equal(ids[i], UINT32_MAX);
+    } else {
+        const u32 single = (leaf >> 1) - walk->input->first_single;
+        assert_int_equal(single, walk->singles_seen++);
+        assert_true(walk->bvh->singles[single] < walk->input->singles);
+        check_box(walk, walk->bvh->singles[single], bounds);
     }
 }
 
 // index: as references in the tree are. outer: the box that the parent gives the node, NULL for the root.
 static void check_node(Walk *walk, u32 index, u32 depth, const Box *outer)
 {
-    assert_in_range(index, walk->first_node, walk->first_node + walk->bvh->node_count - 1);
-    const BvhNode *node = &walk->bvh->nodes[index - walk->first_node];
-    walk->nodes_seen++;
+    assert_int_equal(index, walk->input->first_node + walk->nodes_seen++); // depth first
+    assert_true(walk->nodes_seen <= walk->bvh->node_count);
+    const BvhNode *node = &walk->bvh->nodes[index - walk->input->first_node];
     walk->deepest = depth > walk->deepest ? depth : walk->deepest;
-    bool ended = false;
-    u32 used = 0;
-    for (int slot = 0; slot < BVH_WIDTH; slot++) {
-        const Box box = slot_box(node, slot);
-        if (box.min[0] > box.max[0]) { // an empty slot, which no ray hits; only empty ones follow
-            for (int k = 0; k < 3; k++)
-                assert_true(box.min[k] == INFINITY && box.max[k] == -INFINITY);
-            ended = true;
-            continue;
-        }
-        assert_false(ended);
-        used++;
+    int used = 0;
+    for (; used < BVH_WIDTH && node->lower_x[used] <= node->upper_x[used]; used++) {
+        const Box box = slot_box(node, used);
         if (outer)
             assert_true(contains(outer, &box));
-        if (node->child[slot] >= 0)
-            check_node(walk, (u32)node->child[slot], depth + 1, &box);
+        if (node->child[used] >= 0)
+            check_node(walk, (u32)node->child[used], depth + 1, &box);
         else
-            check_leaf(walk, ~(u32)node->child[slot], &box);
+            check_leaf(walk, ~(u32)node->child[used], &box);
     }
     assert_true(used >= 1 && (used >= 2 || walk->bvh->node_count == 1));
+    for (int slot = used; slot < BVH_WIDTH; slot++) { // empty ones, which no ray hits
+        const Box box = slot_box(node, slot);
+        for (int k = 0; k < 3; k++)
+            assert_true(box.min[k] == INFINITY && box.max[k] == -INFINITY);
+        assert_true(node->child[slot] < 0);
+    }
+    for (int slot = 0; slot < BVH_WIDTH; slot++)
+        assert_int_equal(node->padding[slot], 0);
 }
 
-// Every primitive in exactly one leaf, within all boxes on the way there. Returns the depth.
-static u32 check(const Bvh *bvh, const Box *boxes, u32 first_node, u32 first_primitive)
+// Everything in exactly one leaf, within all boxes on the way there. Returns the depth.
+static u32 check(const Bvh *bvh, const BvhInput *input)
 {
-    Walk walk = {bvh, boxes, first_node, first_primitive, 0, 0, calloc(bvh->count, 1)};
-    unsigned char *ordered = calloc(bvh->count, 1);
-    assert_true(walk.in_leaf && ordered);
-    check_node(&walk, first_node, 0, NULL);
+    Walk walk = {.bvh = bvh, .input = input, .seen = calloc(input->count, 1)};
+    assert_non_null(walk.seen);
+    check_node(&walk, input->first_node, 0, NULL);
     assert_int_equal(walk.nodes_seen, bvh->node_count);
-    for (u32 i = 0; i < bvh->count; i++) {
-        assert_true(walk.in_leaf[i]);
-        assert_true(bvh->order[i] < bvh->count);
-        assert_false(ordered[bvh->order[i]]);
-        ordered[bvh->order[i]] = 1;
-    }
+    assert_int_equal(walk.singles_seen, bvh->single_count);
+    assert_int_equal(walk.blocks_seen, bvh->block_count);
+    for (u32 i = 0; i < input->count; i++)
+        assert_true(walk.seen[i]);
     assert_true(walk.deepest <= BVH_MAX_DEPTH);
-    free(walk.in_leaf);
-    free(ordered);
+    free(walk.seen);
     return walk.deepest;
 }
 
-// Builds, checks and frees; returns the depth.
+static void assert_same(const Bvh *a, const Bvh *b)
+{
+    assert_int_equal(a->node_count, b->node_count);
+    assert_int_equal(a->single_count, b->single_count);
+    assert_int_equal(a->block_count, b->block_count);
+    assert_memory_equal(a->nodes, b->nodes, a->node_count * sizeof *a->nodes);
+    assert_memory_equal(a->singles, b->singles, a->single_count * sizeof *a->singles);
+    assert_memory_equal(a->blocks, b->blocks, a->block_count * sizeof *a->blocks * BLOCK_WIDTH);
+}
+
+// Builds with none, a few, half and all as singles, checks and frees; returns the greatest depth.
 static u32 build_and_check(const Box *boxes, u32 count)
 {
-    Bvh bvh = build(boxes, count, 0, 0);
-    const u32 depth = check(&bvh, boxes, 0, 0);
-    bvh_destroy(&bvh);
-    return depth;
+    const u32 singles[] = {0, count / 50 + 1, count / 2, count};
+    u32 deepest = 0;
+    for (int i = 0; i < 4; i++) {
+        const BvhInput input = {.boxes = boxes, .count = count, .singles = singles[i]};
+        Bvh bvh = build(&input);
+        const u32 depth = check(&bvh, &input);
+        deepest = depth > deepest ? depth : deepest;
+        bvh_destroy(&bvh);
+    }
+    return deepest;
 }
 
 static void test_few(void **state)
@@ -162,42 +210,59 @@ static void test_few(void **state)
             assert_int_equal(depth, 0);
         free(boxes);
     }
+}
+
+static void test_one(void **state)
+{
+    (void)state;
     const Box one = {{1, 2, 3}, {4, 5, 6}};
-    Bvh bvh = build(&one, 1, 0, 0);
+    for (u32 singles = 0; singles <= 1; singles++) {
+        const BvhInput input = {&one, 1, singles, 10, 20, 30};
+        Bvh bvh = build(&input);
+        assert_int_equal(bvh.node_count, 1);
+        assert_int_equal(bvh.block_count, 1 - singles);
+        assert_int_equal(bvh.nodes[0].child[0], singles ? ~(20 << 1) : ~(30 << 1 | 1));
+        const Box stored = slot_box(&bvh.nodes[0], 0);
+        assert_memory_equal(&stored, &one, sizeof one);
+        bvh_destroy(&bvh);
+        bvh_destroy(&bvh);
+    }
+    // Up to eight triangles are one block.
+    Box *boxes = random_boxes(BLOCK_WIDTH, 10, 1);
+    const BvhInput input = {.boxes = boxes, .count = BLOCK_WIDTH};
+    Bvh bvh = build(&input);
     assert_int_equal(bvh.node_count, 1);
-    assert_int_equal(bvh.nodes[0].child[0], ~(0 << 4 | 1));
-    const Box stored = slot_box(&bvh.nodes[0], 0);
-    assert_memory_equal(&stored, &one, sizeof one);
+    assert_int_equal(bvh.block_count, 1);
     bvh_destroy(&bvh);
-    bvh_destroy(&bvh);
+    free(boxes);
 }
 
 static void test_many(void **state)
 {
     (void)state;
-    Box *boxes = random_boxes(50000, 100, 0.5);
-    // A tree of eights over leaves of up to four: a balanced one is 5 deep.
-    assert_true(build_and_check(boxes, 50000) <= 12);
+    enum { COUNT = 50000 };
+    Box *boxes = random_boxes(COUNT, 100, 0.5);
+    assert_true(build_and_check(boxes, COUNT) <= 12);
+    const BvhInput input = {.boxes = boxes, .count = COUNT};
+    Bvh bvh = build(&input);
+    // Memory is part of the bargain: of a block of eight, more than five triangles on average.
+    assert_true(BLOCK_WIDTH * bvh.block_count < COUNT * BLOCK_WIDTH / 5);
+    bvh_destroy(&bvh);
     free(boxes);
 }
 
 static void test_bases(void **state)
 {
     (void)state;
-    Box *boxes = random_boxes(3000, 10, 1);
-    Bvh plain = build(boxes, 3000, 0, 0), moved = build(boxes, 3000, 777, 123456);
-    check(&moved, boxes, 777, 123456);
-    assert_int_equal(plain.node_count, moved.node_count);
-    assert_memory_equal(plain.order, moved.order, 3000 * sizeof(u32));
-    for (u32 i = 0; i < plain.node_count; i++) {
-        assert_memory_equal(plain.nodes[i].lower_x, moved.nodes[i].lower_x, 6 * BVH_WIDTH * sizeof(f32));
-        for (int slot = 0; slot < BVH_WIDTH; slot++) {
-            const i32 a = plain.nodes[i].child[slot], b = moved.nodes[i].child[slot];
-            if (plain.nodes[i].lower_x[slot] > plain.nodes[i].upper_x[slot])
-                continue;
-            assert_true(a >= 0 ? b == a + 777 : ~(u32)b == ~(u32)a + (123456u << 4));
-        }
-    }
+    enum { COUNT = 3000, SINGLES = 500 };
+    Box *boxes = random_boxes(COUNT, 10, 1);
+    const BvhInput at_zero = {boxes, COUNT, SINGLES, 0, 0, 0}, at_bases = {boxes, COUNT, SINGLES, 777, 123, 4567};
+    Bvh plain = build(&at_zero), moved = build(&at_bases);
+    check(&plain, &at_zero);
+    check(&moved, &at_bases);
+    for (u32 i = 0; i < plain.node_count; i++)
+        memcpy(moved.nodes[i].child, plain.nodes[i].child, sizeof plain.nodes[i].child);
+    assert_same(&plain, &moved);
     bvh_destroy(&plain);
     bvh_destroy(&moved);
     free(boxes);
@@ -306,34 +371,81 @@ static void test_threads(void **state)
 {
     (void)state;
 #ifdef _OPENMP
-    enum { COUNT = 60000 };
+    enum { COUNT = 300000 };
     Box *boxes = random_boxes(COUNT, 100, 1);
     const int before = omp_get_max_threads();
-    omp_set_num_threads(1);
-    Bvh one = build(boxes, COUNT, 5, 6);
-    for (int threads = 2; threads <= 5; threads++) {
-        omp_set_num_threads(threads);
-        Bvh more = build(boxes, COUNT, 5, 6);
-        assert_int_equal(more.node_count, one.node_count);
-        assert_memory_equal(more.nodes, one.nodes, one.node_count * sizeof *one.nodes);
-        assert_memory_equal(more.order, one.order, COUNT * sizeof *one.order);
-        bvh_destroy(&more);
+    for (u32 singles = 0; singles < COUNT; singles += COUNT / 3) {
+        const BvhInput input = {boxes, COUNT, singles, 5, 6, 7};
+        omp_set_num_threads(1);
+        Bvh one = build(&input);
+        check(&one, &input);
+        static const int threads[] = {2, 7};
+        for (int i = 0; i < 2; i++) {
+            omp_set_num_threads(threads[i]);
+            Bvh more = build(&input);
+            assert_same(&one, &more);
+            bvh_destroy(&more);
+        }
+        bvh_destroy(&one);
     }
     omp_set_num_threads(before);
-    bvh_destroy(&one);
     free(boxes);
 #else
     skip();
 #endif
 }
 
+// Where the address space ends at some point of the build, it says so and leaves nothing behind.
+static void test_no_memory(void **state)
+{
+    (void)state;
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || !defined __linux__
+    skip(); // their shadows need more than any limit
+#else
+    enum { COUNT = 1500000, STEP = 8 << 20 };
+    Box *boxes = random_boxes(COUNT, 100, 1);
+    const BvhInput input = {.boxes = boxes, .count = COUNT, .singles = COUNT / 4};
+    struct rlimit before;
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+#ifdef _OPENMP
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1); // its runtime ends the program where it has no memory for its own
+#endif
+    bool built = false;
+    u32 failures = 0;
+    for (rlim_t limit = address_space(); !built; limit += STEP) {
+        const struct rlimit small = {limit, before.rlim_max};
+        Bvh bvh = {.node_count = 123};
+        Error error = {0};
+        assert_int_equal(setrlimit(RLIMIT_AS, &small), 0);
+        built = bvh_build(&input, &bvh, &error);
+        setrlimit(RLIMIT_AS, &before);
+        if (built) {
+            check(&bvh, &input);
+            bvh_destroy(&bvh);
+        } else {
+            failures++;
+            assert_int_equal(error.code, ERROR_MEMORY);
+            assert_int_equal(bvh.node_count, 123);
+            assert_null(bvh.nodes);
+        }
+    }
+    assert_true(failures > 0);
+#ifdef _OPENMP
+    omp_set_num_threads(threads);
+#endif
+    free(boxes);
+#endif
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_few),       cmocka_unit_test(test_many),
-        cmocka_unit_test(test_bases),     cmocka_unit_test(test_identical),
+        cmocka_unit_test(test_few),       cmocka_unit_test(test_one),
+        cmocka_unit_test(test_many),      cmocka_unit_test(test_bases),     cmocka_unit_test(test_identical),
         cmocka_unit_test(test_chain),     cmocka_unit_test(test_extreme_numbers),
         cmocka_unit_test(test_no_extent), cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "base/memory.h"
 #include "device/buffer.h"
 #include "device/program.h"
 
@@ -180,32 +181,41 @@ static void copies_parts(void **state)
     buffer_destroy(buffer);
 }
 
-// A buffer of whole huge pages and a bit, to its ends.
+// Buffers of whole huge pages and a bit, to their ends: copied, and wrapped around memory of ours.
 static void holds_many_pages(void **state)
 {
     Fixture *fixture = *state;
     Error error;
     const u64 bytes = (3u << 20) + 12;
-    f32 *memory = calloc(bytes, 1);
-    assert_non_null(memory);
+    f32 *memory = page_alloc(bytes), *doubled = malloc(bytes);
+    assert_true(memory && doubled);
     memory[0] = 5.0f;
     memory[bytes / 4 - 1] = 6.0f;
-    Buffer *in = buffer_create(fixture->device, "in", bytes, &error);
-    Buffer *out = buffer_create(fixture->device, "out", bytes, &error);
-    Kernel *kernel = kernel_create(fixture->program, "scale", &error);
-    assert_true(in && out && kernel);
-    check(buffer_upload(in, 0, memory, bytes, &error), &error);
-    check(kernel_set_buffer(kernel, "from", in, &error), &error);
-    check(kernel_set_buffer(kernel, "to", out, &error), &error);
-    check(kernel_set_u32(kernel, "factor", 2, &error), &error);
-    check(kernel_set_u32(kernel, "count", (u32)(bytes / 4), &error), &error);
-    check(kernel_launch(kernel, bytes / 4, 0, &error), &error);
-    check(buffer_download(out, 0, memory, bytes, &error), &error);
-    assert_true(memory[0] == 10.0f && memory[1] == 0.0f && memory[bytes / 4 - 1] == 12.0f);
-    kernel_destroy(kernel);
-    buffer_destroy(out);
-    buffer_destroy(in);
-    free(memory);
+    for (int wrapped = 0; wrapped < 2; wrapped++) {
+        Buffer *in = wrapped ? buffer_wrap(fixture->device, "in", memory, bytes, &error)
+                             : buffer_create(fixture->device, "in", bytes, &error);
+        Buffer *out = buffer_create(fixture->device, "out", bytes, &error);
+        Kernel *kernel = kernel_create(fixture->program, "scale", &error);
+        assert_true(in && out && kernel);
+        assert_int_equal(device_bytes(fixture->device), 2 * bytes);
+        check(wrapped || buffer_upload(in, 0, memory, bytes, &error), &error);
+        check(kernel_set_buffer(kernel, "from", in, &error), &error);
+        check(kernel_set_buffer(kernel, "to", out, &error), &error);
+        check(kernel_set_u32(kernel, "factor", 2, &error), &error);
+        check(kernel_set_u32(kernel, "count", (u32)(bytes / 4), &error), &error);
+        check(kernel_launch(kernel, bytes / 4, 0, &error), &error);
+        check(buffer_download(out, 0, doubled, bytes, &error), &error);
+        assert_true(doubled[0] == 10.0f && doubled[1] == 0.0f && doubled[bytes / 4 - 1] == 12.0f);
+        kernel_destroy(kernel);
+        buffer_destroy(out);
+        buffer_destroy(in);
+    }
+    assert_true(memory[0] == 5.0f && memory[bytes / 4 - 1] == 6.0f); // still ours
+    page_free(memory, bytes);
+    free(doubled);
+    Buffer *empty = buffer_wrap(fixture->device, "empty", NULL, 0, &error);
+    check(empty, &error);
+    buffer_destroy(empty);
 }
 
 static void refuses_what_does_not_fit(void **state)
@@ -215,6 +225,7 @@ static void refuses_what_does_not_fit(void **state)
     const u64 bytes[] = {fixture->info.allocation_max + 1, UINT64_MAX};
     for (size_t i = 0; i < 2; i++) {
         assert_null(buffer_create(fixture->device, "the film", bytes[i], &error));
+        assert_null(buffer_wrap(fixture->device, "the film", &error, bytes[i], &error));
         assert_int_equal(error.code, ERROR_MEMORY);
         assert_non_null(strstr(error.text, "'the film'"));
         assert_non_null(strstr(error.text, "MiB"));

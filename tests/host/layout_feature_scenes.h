@@ -12,6 +12,12 @@ typedef struct FeatureScenes {
 
 #define SHAPE_BALL "sphere { center 0 0 -4 radius 1 }\n"
 #define SHAPE_BALL_OF(material) "sphere { center 0 0 -4 radius 1 material " material " }\n"
+#ifndef CLRT_TESTS
+#define CLRT_TESTS CLRT_SOURCE "/tests"
+#endif
+// Files for whoever reads them; layout_meshes.h knows the meshes by their names.
+#define SHAPE_SHEET(name, properties) \
+    "mesh { file \"" CLRT_TESTS "/host/meshes/" name ".obj\" " properties " translate 0 0 -4 }\n"
 #define LIGHT_LAMP "light point { position 3 4 0 }\n"
 #define MATERIAL_M(properties) "material m phong { " properties " }\n"
 
@@ -36,6 +42,14 @@ static const FeatureScenes feature_scenes[] = {
     {FEATURE_TRIANGLE, SHAPE_BALL "triangle { vertices -1 0 -4 1 0 -4 0 1 -4 }\n", SHAPE_BALL},
     {FEATURE_TRIANGLE_EXTRA, "triangle { vertices -1 0 -4 1 0 -4 0 1 -4 normals 0 0 1 1 0 1 0 1 1 }\n",
      "triangle { vertices -1 0 -4 1 0 -4 0 1 -4 uvs 0 0 1 0 0 1 }\n"},
+    {FEATURE_MESH, SHAPE_BALL SHAPE_SHEET("grid1", ""), SHAPE_BALL},
+    {FEATURE_MESH_NORMALS, SHAPE_SHEET("grid1_normals", ""),
+     SHAPE_SHEET("grid1_normals", "smooth off")},
+    {FEATURE_MESH_UVS,
+     "texture t checker { scale 8 8 }\n" MATERIAL_M("diffuse t")
+     SHAPE_SHEET("grid1_uvs", "material m"),
+     "texture t checker { scale 8 8 }\n" MATERIAL_M("diffuse t")
+     SHAPE_SHEET("grid1", "material m")},
     {FEATURE_UV, "texture t checker { scale 8 8 }\n" MATERIAL_M("diffuse t") SHAPE_BALL_OF("m"),
      "texture t checker3d { scale 8 }\n" MATERIAL_M("diffuse t") SHAPE_BALL_OF("m")},
     {FEATURE_CHECKER, "texture t checker { scale 8 8 }\n" MATERIAL_M("diffuse t") SHAPE_BALL_OF("m"),

@@ -50,6 +50,8 @@ static void test_exact_sets(void **state)
                                                                     feature_bit(FEATURE_POINT) |
                                                                     feature_bit(FEATURE_SHADOWS);
     expect_features("", 0);
+    expect_features("mesh { file \"grid2\" }\n",
+                    (ball & ~feature_bit(FEATURE_SPHERE)) | feature_bit(FEATURE_MESH) | ambient);
     expect_features("background 1", feature_bit(FEATURE_BACKGROUND));
     expect_features(SHAPE_BALL, ball | ambient);
     expect_features(SHAPE_BALL LIGHT_LAMP, ball | ambient | lamp);
@@ -80,6 +82,11 @@ static void test_unused(void **state)
         snprintf(text, sizeof text, "%s%s%s", idle[i], SHAPE_BALL, LIGHT_LAMP);
         expect_features(text, lit);
     }
+    // Texture coordinates of a mesh in a scene whose textures need none, or are not seen.
+    const FeatureSet sheet = features_of("mesh { file \"grid2\" }\n");
+    expect_features("mesh { file \"grid2 uvs\" }\n", sheet);
+    expect_features("texture t checker { }\n" MATERIAL_M("diffuse t") "mesh { file \"grid2 uvs\" }\n", sheet);
+    expect_features("object o { mesh { file \"grid2\" } }\n" SHAPE_BALL, plain);
     // Lights without anything to shine on; rays that no depth is left for; highlights without lights.
     expect_features(LIGHT_LAMP, 0);
     expect_features("render { max_depth 0 }\n"

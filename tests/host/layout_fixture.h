@@ -7,12 +7,15 @@
 #include <math.h>
 
 #include "layout/layout.h"
+#include "layout_meshes.h"
 
 static inline Layout *layout_good(const char *text)
 {
     Parsed parsed = parse_good(text);
     Error error = {0};
+    meshes_attach(parsed.scene);
     Layout *layout = layout_create(parsed.scene, &error);
+    meshes_detach(parsed.scene);
     if (!layout)
         fail_msg("%s\n%s", error.text, text);
     parsed_end(&parsed);
@@ -24,7 +27,9 @@ static inline Error layout_error(const char *text)
 {
     Parsed parsed = parse_good(text);
     Error error = {0};
+    meshes_attach(parsed.scene);
     assert_null(layout_create(parsed.scene, &error));
+    meshes_detach(parsed.scene);
     parsed_end(&parsed);
     return error;
 }

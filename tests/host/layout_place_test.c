@@ -134,9 +134,13 @@ static void test_materials(void **state)
                          "object o { sphere { center 0 0 0 radius 1 }\n"
                          "box { min 0 0 0 max 1 1 1 material b } }\n"
                          "instance o { material a }\n");
-    assert_int_equal(material_of(layout, PRIMITIVE_SPHERE), NO_INDEX);
+    assert_int_equal(material_of(layout, PRIMITIVE_SPHERE), MATERIAL_INHERITED);
     assert_int_equal(material_of(layout, PRIMITIVE_BOX), 2);
     assert_int_equal(material_of(layout, PRIMITIVE_INSTANCE), 1);
+    layout_destroy(layout);
+    layout = layout_good("object o { sphere { center 0 0 0 radius 1 } box { min 0 0 0 max 1 1 1 } }\n"
+                         "instance o { }\n");
+    assert_int_equal(material_of(layout, PRIMITIVE_INSTANCE), NO_INDEX);
     layout_destroy(layout);
 }
 

@@ -136,15 +136,16 @@ static void test_cylinder_cone_torus(void **state)
 static void test_mesh(void **state)
 {
     (void)state;
-    const char *text = "mesh { file \"a.obj\" } mesh { file \"/b.obj\" smooth on } "
-                       "mesh { file \"c\" smooth off }";
-    Parsed p = parse_bytes(text, strlen(text));
-    assert_int_equal(diagnostics_error_count(p.diagnostics), 3); // parsed, but not supported yet
+    Parsed p = parse_good("mesh { file \"a.obj\" } mesh { file \"/b.obj\" smooth on }\n"
+                          "mesh { smooth off file \"c\" }");
     assert_string_equal(p.scene->shapes[0].as.mesh.file, "a.obj");
     assert_string_equal(p.scene->shapes[1].as.mesh.file, "/b.obj");
     assert_int_equal(p.scene->shapes[0].as.mesh.smooth, -1);
     assert_int_equal(p.scene->shapes[1].as.mesh.smooth, 1);
     assert_int_equal(p.scene->shapes[2].as.mesh.smooth, 0);
+    assert_int_equal(p.scene->shapes[2].as.mesh.file_at.line, 2);
+    assert_int_equal(p.scene->shapes[2].as.mesh.file_at.column, 19);
+    assert_null(p.scene->shapes[0].as.mesh.mesh); // files are not the parser's
     parsed_end(&p);
     expect_error("mesh { file \"\" }", "1:13: the file name is empty");
 }

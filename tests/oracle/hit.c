@@ -7,21 +7,26 @@ static real tolerance(const Primitive *primitive, const Ray *ray)
     return primitive->unit * (primitive->magnitude + fmaxl(fabsl(o.x), fmaxl(fabsl(o.y), fabsl(o.z))));
 }
 
-static bool may_meet(const Primitive *primitive, const Ray *ray)
+/* Whether the ray may meet what is within the sphere. */
+static bool may_meet(Vec center, real radius, real magnitude, const Ray *ray)
 {
-    if (!primitive->bounded)
-        return true;
-    Vec f = sub(primitive->bound_center, ray->o);
+    Vec f = sub(center, ray->o);
     real along = dot(f, ray->d);
     Vec off = sub(f, scaled(ray->d, along));
-    real radius = primitive->bound_radius + 1e-9L * primitive->magnitude;
+    radius += 1e-9L * magnitude;
     return dot(off, off) <= radius * radius && along + radius >= 0;
+}
+
+static bool run_is_missed(const Run *run, const Ray *ray)
+{
+    return run->bounded && !may_meet(run->center, run->radius, run->magnitude, ray);
 }
 
 /* All crossings with one primitive ahead of the ray's start; `local` becomes the ray in the shape's space. */
 static int crossings_ahead(const Primitive *primitive, const Ray *ray, Line *local, Crossing *out)
 {
-    if (!may_meet(primitive, ray))
+    if (primitive->bounded &&
+        !may_meet(primitive->bound_center, primitive->bound_radius, primitive->magnitude, ray))
         return 0;
     local->o = transform_point(&primitive->to_local, ray->o);
     local->d = transform_vector(&primitive->to_local, ray->d);
@@ -64,29 +69,40 @@ static void fill_hit(const Ray *ray, const Line *local, const Crossing *crossing
         hit->shading = scaled(hit->shading, -1);
 }
 
+/* The closest hit so far. */
+typedef struct Best {
+    const Primitive *primitive;
+    Line local;
+    Crossing crossing;
+} Best;
+
+static void keep_closer(const Primitive *primitive, const Ray *ray, Best *best)
+{
+    Line local;
+    Crossing crossings[CROSSINGS_MAX];
+    int count = crossings_ahead(primitive, ray, &local, crossings);
+    for (int k = 0; k < count; k++) {
+        /* Equal but for rounding is a tie, and the earlier primitive keeps it. */
+        real tie = best->primitive == primitive ? 0 : tolerance(primitive, ray) + 1e-15L * crossings[k].t;
+        if (!(crossings[k].t + tie < best->crossing.t))
+            continue;
+        *best = (Best){primitive, local, crossings[k]};
+    }
+}
+
 bool hit_closest(const Scene *scene, const Ray *ray, Hit *hit)
 {
-    Line best_local = {0};
-    Crossing best = {INFINITY, 0, false};
-    hit->primitive = NULL;
-    for (size_t i = 0; i < scene->primitive_count; i++) {
-        const Primitive *primitive = &scene->primitives[i];
-        Line local;
-        Crossing crossings[CROSSINGS_MAX];
-        int count = crossings_ahead(primitive, ray, &local, crossings);
-        for (int k = 0; k < count; k++) {
-            /* Equal but for rounding is a tie, and the earlier primitive keeps it. */
-            real tie = hit->primitive == primitive ? 0 : tolerance(primitive, ray) + 1e-15L * crossings[k].t;
-            if (!(crossings[k].t + tie < best.t))
-                continue;
-            best = crossings[k];
-            best_local = local;
-            hit->primitive = primitive;
-        }
+    Best best = {.primitive = NULL, .crossing.t = INFINITY};
+    for (size_t run = 0; run < scene->run_count; run++) {
+        if (run_is_missed(&scene->runs[run], ray))
+            continue;
+        for (size_t i = scene->runs[run].first; i < scene->runs[run].end; i++)
+            keep_closer(&scene->primitives[i], ray, &best);
     }
+    hit->primitive = best.primitive;
     if (hit->primitive == NULL)
         return false;
-    fill_hit(ray, &best_local, &best, hit);
+    fill_hit(ray, &best.local, &best.crossing, hit);
     return true;
 }
 
@@ -132,24 +148,31 @@ static bool already_crossed(EdgeList *edges, const Primitive *primitive, const C
     return false;
 }
 
+/* The product of k_t over the crossings with one primitive. */
+static Vec primitive_transmittance(const Primitive *primitive, const Ray *ray, real distance, EdgeList *edges)
+{
+    Vec product = grey(1);
+    Line local;
+    Crossing crossings[CROSSINGS_MAX];
+    int count = crossings_ahead(primitive, ray, &local, crossings);
+    for (int k = 0; k < count; k++) {
+        if (crossings[k].t >= distance - tolerance(primitive, ray))
+            continue;
+        if (!already_crossed(edges, primitive, &crossings[k]))
+            product = times(product, primitive->material->transmit);
+    }
+    return product;
+}
+
 Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance)
 {
     Vec product = grey(1);
     EdgeList edges = {.count = 0};
-    for (size_t i = 0; i < scene->primitive_count; i++) {
-        const Primitive *primitive = &scene->primitives[i];
-        Line local;
-        Crossing crossings[CROSSINGS_MAX];
-        int count = crossings_ahead(primitive, ray, &local, crossings);
-        for (int k = 0; k < count; k++) {
-            if (crossings[k].t >= distance - tolerance(primitive, ray))
-                continue;
-            if (already_crossed(&edges, primitive, &crossings[k]))
-                continue;
-            product = times(product, primitive->material->transmit);
-            if (largest(product) == 0)
-                return product;
-        }
+    for (size_t run = 0; run < scene->run_count; run++) {
+        if (run_is_missed(&scene->runs[run], ray))
+            continue;
+        for (size_t i = scene->runs[run].first; i < scene->runs[run].end && largest(product) > 0; i++)
+            product = times(product, primitive_transmittance(&scene->primitives[i], ray, distance, &edges));
     }
     return product;
 }

@@ -120,13 +120,7 @@ static void read_file(Scene *scene, const char *path);
 
 static void parse_include(Parser *parser)
 {
-    const char *name = parse_string(parser);
-    const char *slash = strrchr(parser->path, '/');
-    size_t folder = slash == NULL || name[0] == '/' ? 0 : (size_t)(slash - parser->path) + 1;
-    char *path = store_alloc(&parser->scene->store, folder + strlen(name) + 1);
-    memcpy(path, parser->path, folder);
-    strcpy(path + folder, name);
-    read_file(parser->scene, path);
+    read_file(parser->scene, store_beside(&parser->scene->store, parser->path, parse_string(parser)));
 }
 
 static const struct {

@@ -1,6 +1,7 @@
 /* Shapes, their transforms, and instances. */
 #include <string.h>
 
+#include "mesh.h"
 #include "parse.h"
 #include "shape.h"
 
@@ -9,6 +10,8 @@ typedef struct ShapeText {
     Vec center, size, min, max, base, top, axis;
     bool has_center, has_vertices;
     bool round; /* cylinder: top_radius follows radius */
+    const char *file; /* path; of a mesh */
+    Smooth smooth;
 } ShapeText;
 
 static bool parse_transform(Parser *parser, Transform *placed)
@@ -54,6 +57,10 @@ static bool parse_vertex_data(Parser *parser, Shape *shape, ShapeText *text)
         shape->has_uvs = true;
         for (int i = 0; i < 6; i++)
             shape->uvs[i / 2][i % 2] = parse_number(parser);
+    } else if (parse_accept(parser, "file")) {
+        text->file = store_beside(&parser->scene->store, parser->path, parse_string(parser));
+    } else if (parse_accept(parser, "smooth")) {
+        text->smooth = parse_on_off(parser) ? SMOOTH_ON : SMOOTH_OFF;
     } else {
         return false;
     }
@@ -102,7 +109,7 @@ static void regular_vertices(Shape *shape, Vec center, real s)
     shape->vertices[3] = add(center, vec(0, 3 * h / 4, 0));
 }
 
-static void finish(Shape *shape, const ShapeText *text)
+static void finish(Scene *scene, Shape *shape, const ShapeText *text)
 {
     shape->center = text->center;
     shape->normal = text->axis;
@@ -117,6 +124,8 @@ static void finish(Shape *shape, const ShapeText *text)
             shape->center = scaled(add(text->min, text->max), 0.5L);
     } else if (shape->kind == SHAPE_TETRAHEDRON && !text->has_vertices) {
         regular_vertices(shape, text->center, text->size.x);
+    } else if (shape->kind == SHAPE_MESH) {
+        shape->mesh = mesh_read(scene, text->file, text->smooth);
     }
     shape_finish(shape);
 }
@@ -128,6 +137,7 @@ static const struct {
     {"sphere", SHAPE_SPHERE},           {"plane", SHAPE_PLANE},       {"box", SHAPE_BOX},
     {"tetrahedron", SHAPE_TETRAHEDRON}, {"triangle", SHAPE_TRIANGLE}, {"disk", SHAPE_DISK},
     {"cone", SHAPE_CONE},               {"cylinder", SHAPE_CONE},     {"torus", SHAPE_TORUS},
+    {"mesh", SHAPE_MESH},
 };
 
 static bool parse_start(Parser *parser, Item *item, ShapeText *text)
@@ -153,7 +163,7 @@ static bool parse_start(Parser *parser, Item *item, ShapeText *text)
 
 bool parse_item(Parser *parser, Item *item)
 {
-    ShapeText text = {.has_center = false};
+    ShapeText text = {.smooth = SMOOTH_FILE};
     *item = (Item){.material = MATERIAL_NONE, .placed = transform_identity(), .shape = {.caps = true}};
     if (!parse_start(parser, item, &text))
         return false;
@@ -176,6 +186,6 @@ bool parse_item(Parser *parser, Item *item)
         }
     }
     if (!item->is_instance)
-        finish(&item->shape, &text);
+        finish(parser->scene, &item->shape, &text);
     return true;
 }

@@ -69,10 +69,10 @@ int scene_find_object(const Scene *scene, const char *name)
     return -1;
 }
 
-static void place_shape(Scene *scene, const Item *item, const Transform *to_world, int material)
+static void place_shape(Scene *scene, const Shape *shape, const Transform *to_world, int material)
 {
     Primitive primitive = {
-        .shape = &item->shape,
+        .shape = shape,
         .material = &scene->materials[material],
         .to_world = *to_world,
         .to_local = transform_inverse(to_world),
@@ -80,7 +80,7 @@ static void place_shape(Scene *scene, const Item *item, const Transform *to_worl
     Vec center;
     real radius;
     real grow = transform_norm(to_world);
-    primitive.bounded = shape_bound(&item->shape, &center, &radius);
+    primitive.bounded = shape_bound(shape, &center, &radius);
     primitive.bound_center = transform_point(to_world, center);
     /* A little larger, so that rounding in the bound itself never rejects a hit. */
     primitive.bound_radius = radius * grow * 1.000001L;
@@ -94,6 +94,42 @@ static void place_shape(Scene *scene, const Item *item, const Transform *to_worl
     scene->primitive_count = count + 1;
 }
 
+/* Adds the primitives from `first` on as a run. */
+static void place_run(Scene *scene, size_t first)
+{
+    const Primitive *primitives = scene->primitives;
+    Run run = {.first = first, .end = scene->primitive_count, .bounded = true};
+    for (size_t i = first; i < run.end; i++)
+        run.center = add(run.center, scaled(primitives[i].bound_center, 1 / (real)(run.end - first)));
+    for (size_t i = first; i < run.end; i++) {
+        real away = length(sub(primitives[i].bound_center, run.center));
+        run.bounded &= primitives[i].bounded;
+        run.radius = fmaxl(run.radius, away + primitives[i].bound_radius);
+        run.magnitude = fmaxl(run.magnitude, primitives[i].magnitude);
+    }
+    size_t count = scene->run_count;
+    scene->runs = store_grow(&scene->store, scene->runs, count, sizeof run);
+    scene->runs[count] = run;
+    scene->run_count = count + 1;
+}
+
+/* The faces of a mesh: neighbours in the file are mostly neighbours in space, so that short runs of them are
+ * small. */
+static void place_mesh(Scene *scene, const Mesh *mesh, const Transform *to_world, int material, int fallback)
+{
+    enum { RUN = 16 };
+    size_t first = scene->primitive_count;
+    for (size_t i = 0; i < mesh->count; i++) {
+        int own = mesh->materials[i] == MATERIAL_NONE ? fallback : mesh->materials[i];
+        place_shape(scene, &mesh->faces[i], to_world, material == MATERIAL_NONE ? own : material);
+        if (scene->primitive_count - first == RUN || i + 1 == mesh->count) {
+            place_run(scene, first);
+            first = scene->primitive_count;
+        }
+    }
+}
+
+/* inherited: the material of the nearest enclosing instance that names one, or MATERIAL_NONE. */
 static void place_object(Scene *scene, const Object *object, const Transform *outer, int inherited,
                          int fallback)
 {
@@ -105,10 +141,14 @@ static void place_object(Scene *scene, const Object *object, const Transform *ou
             material = inherited;
         else if (material == MATERIAL_DEFAULT)
             material = fallback;
-        if (item->is_instance)
+        if (item->is_instance) {
             place_object(scene, &scene->objects[item->object], &to_world, material, fallback);
-        else
-            place_shape(scene, item, &to_world, material);
+        } else if (item->shape.kind == SHAPE_MESH) {
+            place_mesh(scene, item->shape.mesh, &to_world, material, fallback);
+        } else {
+            place_shape(scene, &item->shape, &to_world, material == MATERIAL_NONE ? fallback : material);
+            place_run(scene, scene->primitive_count - 1);
+        }
     }
 }
 
@@ -124,5 +164,5 @@ void scene_place(Scene *scene)
         scene->material_count = count + 1;
     }
     Transform identity = transform_identity();
-    place_object(scene, &scene->objects[0], &identity, material, material);
+    place_object(scene, &scene->objects[0], &identity, MATERIAL_NONE, material);
 }

@@ -14,7 +14,8 @@ typedef enum ShapeKind {
     SHAPE_TRIANGLE,
     SHAPE_DISK,
     SHAPE_CONE, /* and cylinder: both radii equal */
-    SHAPE_TORUS
+    SHAPE_TORUS,
+    SHAPE_MESH /* only until it is placed: then its faces are triangles */
 } ShapeKind;
 
 typedef struct Shape {
@@ -31,7 +32,15 @@ typedef struct Shape {
     real radius; /* sphere, disk, the base of a cone, torus: major */
     real top_radius; /* cone; torus: minor */
     real height; /* cone */
+    const struct Mesh *mesh;
 } Shape;
+
+/* Triangles of a file, and their materials: an index of the scene's, or MATERIAL_NONE. */
+typedef struct Mesh {
+    Shape *faces;
+    int *materials;
+    size_t count;
+} Mesh;
 
 typedef enum TextureKind { TEXTURE_CHECKER, TEXTURE_CHECKER3D } TextureKind;
 
@@ -98,6 +107,16 @@ typedef struct Primitive {
     real unit;
 } Primitive;
 
+/* Primitives that follow one another, and a sphere around them: what rays that miss it need not be tested
+ * against. */
+typedef struct Run {
+    size_t first, end;
+    bool bounded;
+    Vec center; /* world */
+    real radius;
+    real magnitude; /* the largest of theirs */
+} Run;
+
 typedef enum ToneMap { TONE_NONE, TONE_REINHARD, TONE_REINHARD_EXTENDED, TONE_ACES, TONE_HABLE } ToneMap;
 
 typedef struct Scene {
@@ -125,6 +144,8 @@ typedef struct Scene {
     size_t object_count;
     Primitive *primitives;
     size_t primitive_count;
+    Run *runs; /* of all primitives, in their order */
+    size_t run_count;
 } Scene;
 
 void scene_init(Scene *scene);
@@ -133,7 +154,7 @@ void scene_free(Scene *scene);
 void scene_read(Scene *scene, const char *path);
 /* The same from text, for tests; includes are relative to the working folder. */
 void scene_read_text(Scene *scene, const char *text);
-/* Fills `primitives` from the objects. */
+/* Fills `primitives` and `runs` from the objects. */
 void scene_place(Scene *scene);
 
 /* Index or -1. */

@@ -28,6 +28,7 @@ void shape_finish(Shape *shape)
     case SHAPE_SPHERE:
     case SHAPE_BOX:
     case SHAPE_TETRAHEDRON:
+    case SHAPE_MESH:
         break;
     }
 }
@@ -69,6 +70,8 @@ bool shape_bound(const Shape *shape, Vec *center, real *radius)
         *center = shape->vertices[0];
         *radius = farthest_vertex(shape, *center, 4);
         return true;
+    case SHAPE_MESH:
+        break;
     }
     return false;
 }
@@ -92,6 +95,8 @@ int shape_crossings(const Shape *shape, const Line *line, Crossing out[CROSSINGS
         return cone_crossings(shape, line, out);
     case SHAPE_TORUS:
         return torus_crossings(shape, line, out);
+    case SHAPE_MESH:
+        break;
     }
     return 0;
 }
@@ -122,6 +127,8 @@ Surface shape_surface(const Shape *shape, Vec p, int patch)
         return cone_surface(shape, p, patch);
     case SHAPE_TORUS:
         return torus_surface(shape, p);
+    case SHAPE_MESH:
+        break;
     }
     return (Surface){0};
 }

@@ -39,6 +39,37 @@ char *store_text(Store *store, const char *text, size_t length)
     return copy;
 }
 
+char *store_file(Store *store, const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    if (file == NULL)
+        return NULL;
+    char *text = NULL;
+    *size = 0;
+    for (;;) {
+        text = store_grow(store, text, *size, 1);
+        int byte = getc(file);
+        if (byte == EOF)
+            break;
+        text[(*size)++] = (char)byte;
+    }
+    if (ferror(file))
+        die("%s: cannot be read", path);
+    fclose(file);
+    text[*size] = '\0';
+    return text;
+}
+
+char *store_beside(Store *store, const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    size_t folder = slash == NULL || name[0] == '/' ? 0 : (size_t)(slash - path) + 1;
+    char *beside = store_alloc(store, folder + strlen(name) + 1);
+    memcpy(beside, path, folder);
+    strcpy(beside + folder, name);
+    return beside;
+}
+
 void store_free(Store *store)
 {
     while (store->blocks != NULL) {

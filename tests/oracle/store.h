@@ -17,6 +17,10 @@ void *store_alloc(Store *store, size_t size);
 /* Array growth: returns room for one more item than `count`, with the old items copied. */
 void *store_grow(Store *store, void *items, size_t count, size_t item_size);
 char *store_text(Store *store, const char *text, size_t length);
+/* The bytes of a file and a zero behind them; NULL where it cannot be opened. */
+char *store_file(Store *store, const char *path, size_t *size);
+/* The path of a file that another file names, relative to that one. */
+char *store_beside(Store *store, const char *path, const char *name);
 void store_free(Store *store);
 
 /* Prints `clrt-oracle: ` and the message, and ends the program with status 2. */

@@ -3,7 +3,6 @@
 #include <ctype.h>
 #include <errno.h>
 #include <stdbool.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,20 +102,9 @@ Token *tokens_from_text(Store *store, const char *path, const char *text, size_t
 
 Token *tokens_read(Store *store, const char *path)
 {
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
+    size_t size;
+    char *text = store_file(store, path, &size);
+    if (text == NULL)
         die("%s: %s", path, strerror(errno));
-    char *text = NULL;
-    size_t size = 0;
-    for (;;) {
-        text = store_grow(store, text, size, 1);
-        int byte = getc(file);
-        if (byte == EOF)
-            break;
-        text[size++] = (char)byte;
-    }
-    if (ferror(file))
-        die("%s: cannot be read", path);
-    fclose(file);
     return tokens_from_text(store, path, text, size);
 }

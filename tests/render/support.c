@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "assets/assets.h"
 #include "device/list.h"
 #include "image/color.h"
 
@@ -27,14 +28,17 @@ Layout *layout_of(const char *text)
     Arena *arena = arena_create();
     Diagnostics *diagnostics = diagnostics_create();
     Error error = {0};
-    const Scene *scene = scene_parse_text("scene", text, strlen(text), arena, diagnostics, &error);
-    if (!scene || diagnostics_error_count(diagnostics)) {
+    Scene *scene = scene_parse_text("scene", text, strlen(text), arena, diagnostics, &error);
+    const bool loaded = scene && diagnostics_error_count(diagnostics) == 0 &&
+                        assets_load(scene, arena, diagnostics, &error);
+    if (!loaded || diagnostics_error_count(diagnostics)) {
         diagnostics_print(diagnostics, stdout);
         fail_msg("the scene of the test has errors: %s", error.text);
     }
     Layout *layout = layout_create(scene, &error);
     if (!layout)
         fail_msg("%s", error.text);
+    assets_release(scene);
     diagnostics_destroy(diagnostics);
     arena_destroy(arena);
     return layout;

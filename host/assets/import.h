@@ -1,0 +1,37 @@
+// Import: meshes of every format but OBJ, through the C API of assimp where there is one. Knows no scene.
+#ifndef CLRT_ASSETS_IMPORT_H
+#define CLRT_ASSETS_IMPORT_H
+
+#include "base/error.h"
+#include "scene/mesh.h"
+
+// Of glTF: the part of its model that other models have, too.
+typedef struct ImportMaterial {
+    char *name;
+    Vec3 base_color, emission; // linear
+    bool textured;
+} ImportMaterial;
+
+typedef struct ImportFile {
+    Mesh mesh; // as in mesh.h, but faces without area are kept and face_count may be 0;
+               // parts[].material is an index into materials, -1: none
+    ImportMaterial *materials; // of glTF 2 alone
+    u32 material_count;
+} ImportFile;
+
+// Whether this build has assimp.
+bool import_available(void);
+
+// Reads the file at path, whose format is told by its suffix and its first bytes. Its nodes are placed by
+// their transforms; mirrored ones have their corners turned round, so that outward stays outward. Polygons
+// are fans from the first corner; points, lines, cameras, lights, bones, colours of vertices and uvs but the
+// first are ignored. Where a file gives every corner a vertex of its own (STL), positions that are equal are
+// joined, so that normals can be made; the normals of STL's facets are ignored, which say nothing new.
+// Fails with ERROR_SCENE, or ERROR_MEMORY; the text is the reason alone, *file is empty then.
+bool import_read(const char *path, ImportFile *file, Error *error);
+
+// Frees what file holds and zeroes it; a zeroed ImportFile is fine. A caller that keeps file->mesh zeroes it
+// before.
+void import_destroy(ImportFile *file);
+
+#endif

@@ -1,0 +1,102 @@
+// Woop, Benthin, Wald, "Watertight ray/triangle intersection", 2013, with every edge function a difference of
+// products of exact sign, so that neighbours agree on each side of their edge; an edge that a ray meets
+// exactly belongs to one of the two triangles that share it, as in rasterisation.
+#ifndef CLRT_KERNELS_SHAPES_WOOP_H
+#define CLRT_KERNELS_SHAPES_WOOP_H
+
+#include "base/ray.h"
+
+// Axes permuted so that the ray runs mainly along z, and the shear that makes it the z axis of unit length.
+typedef struct {
+    vm z_is_x, z_is_y;
+    vf shear_x, shear_y, shear_z;
+} RayShear;
+
+static inline v3 shear_permute(const RayShear *s, v3 a)
+{
+    return v3_make(s->z_is_x ? a.y : s->z_is_y ? a.z : a.x, s->z_is_x ? a.z : s->z_is_y ? a.x : a.y,
+                   s->z_is_x ? a.x : s->z_is_y ? a.y : a.z);
+}
+
+static inline RayShear shear_make(v3 dir)
+{
+    RayShear s;
+    const v3 a = v3_abs(dir);
+    s.z_is_x = (a.x >= a.y) & (a.x >= a.z);
+    s.z_is_y = !s.z_is_x & (a.y >= a.z);
+    const v3 d = shear_permute(&s, dir);
+    s.shear_z = (vf)(1.0f) / d.z;
+    s.shear_x = d.x / d.z;
+    s.shear_y = d.y / d.z;
+    return s;
+}
+
+// a: vertex relative to the origin, permuted. x and y: distances from the ray; z stays.
+static inline v3 shear_flat(v3 a, vf shear_x, vf shear_y)
+{
+    return v3_make(fma(-shear_x, a.z, a.x), fma(-shear_y, a.z, a.y), a.z);
+}
+
+// x and y: distances from the ray; z: along the ray in multiples of dir.
+static inline v3 shear_apply(const RayShear *s, v3 vertex, v3 org)
+{
+    const v3 a = shear_flat(shear_permute(s, v3_sub(vertex, org)), s->shear_x, s->shear_y);
+    return v3_make(a.x, a.y, a.z * s->shear_z);
+}
+
+// Twice the signed area between the ray's point and the edge from a to b.
+static inline vf edge_function(v3 a, v3 b) { return difference_of_products(a.x, b.y, a.y, b.x); }
+
+// Whether the ray is on the inner side of the edge, given the function and the winding (1 or -1). The
+// function's sign is exact; where it is 0, the edge counts if it runs upwards, or level to the right, along
+// the boundary, which it does for one of two triangles that lie on either side of it.
+static inline vm edge_inside(vf function, v3 a, v3 b, vm positive)
+{
+    const vm up = (a.y < b.y) | ((a.y == b.y) & (a.x < b.x));
+    const vm down = (a.y > b.y) | ((a.y == b.y) & (a.x > b.x));
+    const vm on = (function == (vf)(0.0f)) & (positive ? up : down);
+    return (positive ? function > (vf)(0.0f) : function < (vf)(0.0f)) | on;
+}
+
+// Barycentric weights times det, and whether the ray passes within.
+typedef struct {
+    vf b0, b1, b2, det;
+    vf a_z, b_z, c_z; // t of the vertices
+    vm within;
+} TriangleWeights;
+
+// Of vertices as shear_apply gives them.
+static inline TriangleWeights woop_weights(v3 a, v3 b, v3 c)
+{
+    TriangleWeights w;
+    w.b0 = edge_function(b, c);
+    w.b1 = edge_function(c, a);
+    w.b2 = edge_function(a, b);
+    w.det = w.b0 + w.b1 + w.b2;
+    w.a_z = a.z;
+    w.b_z = b.z;
+    w.c_z = c.z;
+    const vm positive = w.det > (vf)(0.0f);
+    w.within = edge_inside(w.b0, b, c, positive) & edge_inside(w.b1, c, a, positive) &
+               edge_inside(w.b2, a, b, positive) & (w.det != (vf)(0.0f));
+    return w;
+}
+
+// The mean of the vertices' t: between the least and the largest of them but for 4 roundings.
+static inline vf woop_distance(const TriangleWeights *w)
+{
+    return fma(w->b2, w->c_z, fma(w->b1, w->b_z, w->b0 * w->a_z)) / w->det;
+}
+
+// Lanes whose ray may pass within, by products that are rounded before they are subtracted: rounding is
+// monotone, so a difference that is not 0 has the right sign, and a lane left out surely misses.
+static inline vm woop_candidates(v3 a, v3 b, v3 c)
+{
+    const vf b0 = b.x * c.y - b.y * c.x;
+    const vf b1 = c.x * a.y - c.y * a.x;
+    const vf b2 = a.x * b.y - a.y * b.x;
+    const vf least = vf_min(vf_min(b0, b1), b2), most = vf_max(vf_max(b0, b1), b2);
+    return (least >= (vf)(0.0f)) | (most <= (vf)(0.0f));
+}
+
+#endif

@@ -1,0 +1,71 @@
+// What the fuzzers of files share: bytes under a name that a reader can open, and the program that runs a fuzzer
+// on files where it is not built as one (no CLRT_FUZZ).
+#ifndef CLRT_TESTS_FUZZ_FILE_H
+#define CLRT_TESTS_FUZZ_FILE_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/types.h"
+#include "scene/diagnostics.h"
+
+int LLVMFuzzerTestOneInput(const u8 *data, size_t size);
+
+typedef struct FuzzFile {
+    FILE *file;
+    char path[64];
+} FuzzFile;
+
+static inline FuzzFile fuzz_file_begin(const u8 *data, size_t size)
+{
+    FuzzFile fuzz = { .file = tmpfile() };
+    if (!fuzz.file || fwrite(data, 1, size, fuzz.file) != size || fflush(fuzz.file) != 0)
+        abort();
+    snprintf(fuzz.path, sizeof fuzz.path, "/proc/self/fd/%d", fileno(fuzz.file));
+    return fuzz;
+}
+
+static inline void fuzz_file_end(FuzzFile *fuzz)
+{
+    fclose(fuzz->file);
+}
+
+// The messages as they are printed, to be freed; some where there are errors.
+static inline char *fuzz_print(const Diagnostics *diagnostics)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream)
+        abort();
+    diagnostics_print(diagnostics, stream);
+    fclose(stream);
+    if (diagnostics_error_count(diagnostics) > 0 && size == 0)
+        abort();
+    return text;
+}
+
+#ifndef CLRT_FUZZ
+#include "base/arena.h"
+#include "base/file.h"
+
+int main(int argc, char **argv)
+{
+    for (int i = 1; i < argc; ++i) {
+        Arena *arena = arena_create();
+        FileContent content;
+        Error error;
+        if (!arena || !file_read(argv[i], false, arena, &content, &error)) {
+            fprintf(stderr, "%s: cannot be read\n", argv[i]);
+            return 2;
+        }
+        LLVMFuzzerTestOneInput((const u8 *)content.text, content.length);
+        printf("%s: %zu bytes\n", argv[i], content.length);
+        arena_destroy(arena);
+    }
+    return 0;
+}
+#endif
+
+#endif
