@@ -97,6 +97,8 @@ static u32 distribute(const Forest *left, const Forest *right, u32 slots, f32 *c
 
 // Optimal collapse to wide nodes (Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through
 // compressed wide BVHs", 2017, section 3.1). The leaves are given, so what counts is the area of wide nodes.
+// Against opening the largest child first: 3 to 8 % fewer nodes a ray, 4 to 55 % fewer blocks (leaves stand
+// higher in the tree), 4 to 12 % less memory, for 3 % of the time of the build.
 static void choose_slots(BinaryNode *node, f32 area, const Forest *left, const Forest *right, Forest *forest)
 {
     f32 cost;
@@ -127,9 +129,9 @@ static void cut_range(const Build *build, const Range *range, u32 depth, Range s
         return;
     if (range_cut(build->items, range, (Cut){ .axis = -1 }, sides))
         return;
-    // Triangles are cut so that they leave full blocks.
-    const bool blocks = range->weight == range->count;
-    const u32 left = blocks ? (range->count / 2 + LEAF_WEIGHT - 1) / LEAF_WEIGHT * LEAF_WEIGHT : range->count / 2;
+    u32 left = range->count / 2;
+    if (range->weight == range->count) // triangles: leave full blocks
+        left = (left + LEAF_WEIGHT - 1) / LEAF_WEIGHT * LEAF_WEIGHT;
     range_cut_at(build->items, range, left, sides);
 }
 
@@ -184,13 +186,16 @@ static void build_range(const Build *build, BinaryNode *node, const Range *range
 bool binary_build(Item *items, const Range *range, Binary *binary)
 {
     const u32 threads = thread_count();
-    *binary = (Binary){ .pools = aligned_alloc(alignof(Pool), threads * sizeof(Pool)), .pool_count = threads };
+    *binary = (Binary){ .pools = aligned_alloc(alignof(Pool), threads * sizeof(Pool)),
+                        .pool_count = threads };
     if (!binary->pools)
         return false;
     for (u32 i = 0; i < threads; i++)
         binary->pools[i] = (Pool){ .chunks = NULL };
-    const Build build = { items, binary->pools, range->count < CHUNK_NODES / 2 ? 2 * range->count : CHUNK_NODES,
-                          area_scale(&range->bounds) };
+    const Build build = { .items = items,
+                          .pools = binary->pools,
+                          .chunk_nodes = range->count < CHUNK_NODES / 2 ? 2 * range->count : CHUNK_NODES,
+                          .scale = area_scale(&range->bounds) };
     BinaryNode *root = &binary->root;
     Forest forest;
 #pragma omp parallel default(none) shared(build, root, range, forest) if (range->count >= TASK_ITEMS)

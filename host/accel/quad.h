@@ -21,7 +21,7 @@ static inline Quad quad_load(const void *four)
     return _mm_loadu_ps(four);
 }
 
-static inline void quad_store(f32 *four, Quad a)
+static inline void quad_store(void *four, Quad a)
 {
     _mm_storeu_ps(four, a);
 }
@@ -86,10 +86,9 @@ static inline Quad quad_load(const void *four)
     return a;
 }
 
-static inline void quad_store(f32 *four, Quad a)
+static inline void quad_store(void *four, Quad a)
 {
-    for (int i = 0; i < 4; i++)
-        four[i] = a.lane[i];
+    memcpy(four, &a, sizeof a);
 }
 
 static inline Quad quad_add(Quad a, Quad b)

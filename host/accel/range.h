@@ -48,8 +48,9 @@ static inline u32 range_piece(u32 first, u32 count, u32 piece)
 // Copies the boxes of the input to items, in parallel, and measures them.
 Range range_create(const BvhInput *input, Item *items);
 
-// Reorders the items so that those of the left side come first; sets both sides and measures them. In parallel
-// where the range is large; to be called in a task. False, with the order changed, where a side would be empty.
+// Reorders the items so that those of the left side come first; sets both sides and measures them. In
+// parallel where the range is large; to be called in a task. False, with the order changed, where a side
+// would be empty.
 bool range_cut(Item *items, const Range *range, Cut cut, Range sides[2]);
 
 // Cuts between two items, whatever they are: left (1 .. count - 1) go left.

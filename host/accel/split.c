@@ -3,6 +3,9 @@
 #include <float.h>
 #include <math.h>
 
+// With 16, halls of a few large boxes and dense objects cost 40 % more nodes a ray; 64 gain nothing. Small
+// ranges need fewer, but still one for every other item: so the cuts that leave full blocks are among the
+// places, and blocks are filled with 7.4 triangles where a bin for 16 items gives 6.8.
 enum { BINS = 32 };
 
 typedef struct Bin {
@@ -36,8 +39,7 @@ f32 area_scale(const Bounds *bounds)
 static Mapping mapping(const Range *range)
 {
     Mapping map;
-    // Few items need few bins: a bin costs about as much as an item.
-    const u32 wished = 4 + range->count / 16;
+    const u32 wished = 4 + range->count / 2;
     map.count = wished < BINS ? wished : BINS;
     f32 high[4];
     quad_store(map.lows, range->bounds.centre_low);
@@ -137,15 +139,16 @@ static f32 leaves(u32 weight)
     return (f32)((weight + LEAF_WEIGHT - 1) / LEAF_WEIGHT);
 }
 
-// The cheapest place between bins of the axis, and its cost: area times leaves, of both sides.
-static void best_place(const Bins *bins, const Mapping *map, int axis, f32 scale, f32 *cost, Cut *cut)
+// The cheapest place between bins of the axis (it is the first bin of the right side; 0: none) and its cost:
+// area times leaves, of both sides.
+static u32 best_place(const Bins *bins, u32 count, int axis, f32 scale, f32 *cost)
 {
     const Bin *boxes = bins->boxes[axis];
     const u32 *weights = bins->weights[axis];
     f32 right[BINS];
     u32 weight = 0;
     Quad low = quad_all(INFINITY), high = quad_all(-INFINITY);
-    for (u32 i = map->count - 1; i > 0; i--) {
+    for (u32 i = count - 1; i > 0; i--) {
         low = quad_min(boxes[i].low, low);
         high = quad_max(boxes[i].high, high);
         weight += weights[i];
@@ -153,16 +156,20 @@ static void best_place(const Bins *bins, const Mapping *map, int axis, f32 scale
     }
     weight = 0;
     low = quad_all(INFINITY), high = quad_all(-INFINITY);
-    for (u32 i = 1; i < map->count; i++) {
+    f32 least = INFINITY;
+    u32 place = 0;
+    for (u32 i = 1; i < count; i++) {
         low = quad_min(boxes[i - 1].low, low);
         high = quad_max(boxes[i - 1].high, high);
         weight += weights[i - 1];
-        const f32 sum = bounds_area(low, high, scale) * leaves(weight) + right[i];
-        if (weight > 0 && sum < *cost) {
-            *cost = sum;
-            *cut = (Cut){ axis, map->lows[axis], map->scales[axis], (f32)i };
-        }
+        const f32 left = weight > 0 ? bounds_area(low, high, scale) * leaves(weight) : INFINITY;
+        // Without a branch: none could predict it.
+        const f32 sum = left + right[i];
+        place = sum < least ? i : place;
+        least = sum < least ? sum : least;
     }
+    *cost = least;
+    return place;
 }
 
 bool split_find(const Item *items, const Range *range, f32 scale, Cut *cut)
@@ -174,9 +181,14 @@ bool split_find(const Item *items, const Range *range, f32 scale, Cut *cut)
         bins_fill(&bins, &map, items, range->first, range->first + range->count);
     else
         fill_in_pieces(&bins, &map, items, range);
-    f32 cost = INFINITY;
-    for (int axis = 0; axis < 3; axis++)
-        if (map.scales[axis] > 0)
-            best_place(&bins, &map, axis, scale, &cost, cut);
-    return cost < INFINITY;
+    f32 least = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        f32 cost;
+        const u32 place = map.scales[axis] > 0 ? best_place(&bins, map.count, axis, scale, &cost) : 0;
+        if (place > 0 && cost < least) {
+            least = cost;
+            *cut = (Cut){ axis, map.lows[axis], map.scales[axis], (f32)place };
+        }
+    }
+    return least < INFINITY;
 }

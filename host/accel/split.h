@@ -2,14 +2,16 @@
 #ifndef CLRT_ACCEL_SPLIT_H
 #define CLRT_ACCEL_SPLIT_H
 
+#include <float.h>
+
 #include "accel/range.h"
 
-// Half of the surface of the box, in units in which the largest edge of the hierarchy's is about 1, so that it
+// Half of the surface of the box, in units in which the largest edge of the hierarchy is about 1, so that it
 // neither overflows nor vanishes: scale is that of area_scale. 0 for an empty box.
 static inline f32 bounds_area(Quad low, Quad high, f32 scale)
 {
     // Edges are kept finite; fourth lanes may be anything and are left out.
-    const Quad edge = quad_min(quad_sub(high, low), quad_all(3.4e38f));
+    const Quad edge = quad_min(quad_sub(high, low), quad_all(FLT_MAX));
     const Quad scaled = quad_mul(quad_max(edge, quad_all(0)), quad_all(scale));
     f32 sides[4];
     quad_store(sides, quad_mul(scaled, quad_yzx(scaled)));

@@ -77,8 +77,8 @@ static int read_numbers(Reader *reader, f64 *values, ObjWord *words, int max)
     int count = 0;
     while (obj_text_word(text, &word)) {
         if (count == max) {
-            obj_text_report(text, SEVERITY_ERROR, &word, "unexpected '%.*s' after %.*s", quoted(&word), word.text,
-                            quoted(&reader->keyword), reader->keyword.text);
+            obj_text_report(text, SEVERITY_ERROR, &word, "unexpected '%.*s' after %.*s", quoted(&word),
+                            word.text, quoted(&reader->keyword), reader->keyword.text);
             return 0;
         }
         if (!obj_text_number(text, &word, &values[count]))
@@ -96,8 +96,8 @@ static f64 limit(Reader *reader, const ObjWord *word, f64 value, f64 low, f64 hi
 {
     const f64 limited = value < low ? low : value > high ? high : value;
     if (limited != value)
-        obj_text_report(&reader->text, SEVERITY_WARNING, word, "%.*s %g is taken as %g", quoted(&reader->keyword),
-                        reader->keyword.text, value, limited);
+        obj_text_report(&reader->text, SEVERITY_WARNING, word, "%.*s %g is taken as %g",
+                        quoted(&reader->keyword), reader->keyword.text, value, limited);
     return limited;
 }
 
@@ -162,7 +162,8 @@ static void read_ni(Reader *reader, MtlMaterial *material)
         material->ni = value;
         material->given |= MTL_NI;
     } else {
-        obj_text_report(&reader->text, SEVERITY_WARNING, &word, "Ni %g is not above 0; it is left out", value);
+        obj_text_report(&reader->text, SEVERITY_WARNING, &word, "Ni %g is not above 0; it is left out",
+                        value);
     }
 }
 
@@ -198,8 +199,8 @@ static void read_tr(Reader *reader, MtlMaterial *material)
 
 // ---- maps -----------------------------------------------------------------------------------
 
-// An option of a map: up to max words behind it. Where they are numbers other than neutral, the map would look
-// different from what the renderer makes of it.
+// An option of a map: up to max words behind it. Where they are numbers other than neutral, the map would
+// look different from what the renderer makes of it.
 typedef struct MapOption {
     const char *name;
     int max;
@@ -261,8 +262,8 @@ static char *read_map(Reader *reader, u32 *line)
     if (!name)
         return NULL;
     if (!*name) {
-        obj_text_report(&reader->text, SEVERITY_WARNING, &place, "%.*s names no file", quoted(&reader->keyword),
-                        reader->keyword.text);
+        obj_text_report(&reader->text, SEVERITY_WARNING, &place, "%.*s names no file",
+                        quoted(&reader->keyword), reader->keyword.text);
         return NULL;
     }
     *line = place.line < UINT32_MAX ? (u32)place.line : UINT32_MAX;
@@ -322,13 +323,15 @@ static const Property *find_property(const ObjWord *keyword)
     return NULL;
 }
 
-// Whether the keyword is one of the format, or of what it has been extended by, that the renderer has no use for.
+// Whether the keyword is one of the format, or of what it has been extended by, that the renderer has no use
+// for.
 static bool is_ignored(const ObjWord *keyword)
 {
     static const char *const ignored[] = {
-        "Ka", "Tf", "Km", "illum", "sharpness", "map_Ka", "map_ka", "map_Ks", "map_ks", "map_Ke", "map_ke", "map_Ns",
-        "map_ns", "map_d", "map_D", "map_Tr", "map_tr", "map_aat", "map_refl", "refl", "disp", "map_disp", "decal",
-        "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "map_Pcr"
+        "Ka", "Tf", "Km", "illum", "sharpness", "map_Ka", "map_ka", "map_Ks", "map_ks", "map_Ke", "map_ke",
+        "map_Ns", "map_ns", "map_d", "map_D", "map_Tr", "map_tr", "map_aat", "map_refl", "refl", "disp",
+        "map_disp", "decal", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "map_Pr", "map_Pm", "map_Ps",
+        "map_Pc", "map_Pcr"
     };
     for (size_t i = 0; i < sizeof ignored / sizeof *ignored; ++i) {
         if (obj_word_is(keyword, ignored[i]))
@@ -354,8 +357,8 @@ static void read_statement(Reader *reader)
                             quoted(keyword), keyword->text);
         reader->told_of_no_material = true;
     } else if (!is_ignored(keyword) && obj_words_add(&reader->unknown, keyword->text, keyword->length)) {
-        obj_text_report(text, SEVERITY_WARNING, keyword, "'%.*s' is not known; it is skipped", quoted(keyword),
-                        keyword->text);
+        obj_text_report(text, SEVERITY_WARNING, keyword, "'%.*s' is not known; it is skipped",
+                        quoted(keyword), keyword->text);
     }
 }
 

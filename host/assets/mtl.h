@@ -40,10 +40,10 @@ typedef struct MtlFile {
 } MtlFile;
 
 // Reads the regular file at path. Returns false with an Error where that was not possible; the text is the
-// reason alone. What the file says wrongly is added to diagnostics, located in `path`, and returns true; after
-// an error *mtl is still complete but for that statement. Numbers out of their range are moved into it with a
-// warning; statements of the format that the renderer has no use for are skipped silently, unknown words with
-// a warning for each.
+// reason alone. What the file says wrongly is added to diagnostics, located in `path`, and returns true;
+// after an error *mtl is still complete but for that statement. Numbers out of their range are moved into it
+// with a warning; statements of the format that the renderer has no use for are skipped silently, unknown
+// words with a warning for each.
 bool mtl_read(const char *path, Diagnostics *diagnostics, MtlFile *mtl, Error *error);
 
 // Frees what mtl holds and zeroes it; a zeroed MtlFile is fine.

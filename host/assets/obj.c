@@ -57,10 +57,12 @@ static int read_range(int descriptor, u64 offset, char *to, size_t length)
 }
 
 // Finds the first statement that begins at or after `from`, which is not 0, and surely begins there, whatever
-// the text before says: behind the end of a line that no backslash precedes. The file's size where there is none.
+// the text before says: behind the end of a line that no backslash precedes. The file's size where there is
+// none.
 static int find_statement(const Reader *reader, u64 from, u64 *start)
 {
-    enum { BEFORE = 3, WINDOW = 4096 }; // an end of a line is judged by two characters before it and one behind
+    // An end of a line is judged by two characters before it and one behind.
+    enum { BEFORE = 3, WINDOW = 4096 };
     char window[WINDOW];
     u64 offset = from > BEFORE ? from - BEFORE : 0;
     while (offset < reader->size) {
@@ -111,7 +113,9 @@ static bool find_pieces(Reader *reader, size_t piece_bytes, Error *error)
             return failed(error, failure);
         if (end - begin > SIZE_MAX / 2)
             return failed(error, ENOMEM);
-        reader->pieces[reader->piece_count++] = (ObjPiece){ .offset = begin, .length = (size_t)(end - begin) };
+        ObjPiece *piece = &reader->pieces[reader->piece_count++];
+        piece->offset = begin;
+        piece->length = (size_t)(end - begin);
         begin = end;
     }
     return true;
@@ -155,7 +159,7 @@ static bool has_news(const ObjPiece *piece, ObjWords *known)
 {
     bool news = false;
     for (u32 i = 0; i < piece->unknown.count; ++i)
-        news |= obj_words_add(known, piece->unknown.words[i], strlen(piece->unknown.words[i]));
+        news |= obj_words_add(known, piece->unknown.words[i], OBJ_WORD_BYTES);
     return news;
 }
 
@@ -250,7 +254,8 @@ static bool open_file(const char *path, Reader *reader, Error *error)
     return true;
 }
 
-bool obj_read_in_pieces(const char *path, size_t piece_bytes, Diagnostics *diagnostics, ObjFile *obj, Error *error)
+bool obj_read_in_pieces(const char *path, size_t piece_bytes, Diagnostics *diagnostics, ObjFile *obj,
+                        Error *error)
 {
     *obj = (ObjFile){ .arena = arena_create() };
     if (!obj->arena)

@@ -1,5 +1,5 @@
-// OBJ: the polygons of a Wavefront file as a Mesh, read by all threads at hundreds of megabytes a second. Knows
-// no scene, no materials behind the names, no other format; what has no area is still there (finish.h).
+// OBJ: the polygons of a Wavefront file as a Mesh, read by all threads at hundreds of megabytes a second.
+// Knows no scene, no materials behind the names, no other format; what has no area is still there (finish.h).
 #ifndef CLRT_ASSETS_OBJ_H
 #define CLRT_ASSETS_OBJ_H
 
@@ -11,7 +11,7 @@
 typedef struct ObjFile {
     Mesh mesh; // as in mesh.h, but faces without area are kept and face_count may be 0;
                // parts[].material is an index into material_names
-    char **material_names; // of usemtl, in the order of their first use by a face, each once; UTF-8 not checked
+    char **material_names; // of usemtl, in the order of their first use by a face, each once; any bytes
     u32 *material_lines;   // of that usemtl, from 1
     u32 material_count;
     char **libraries; // of mtllib, as written: relative to the file's folder; each once
@@ -30,7 +30,8 @@ typedef struct ObjFile {
 // (uvs) where all of its corners have one; a normal of length 0 is none. Indices may refer to what follows.
 bool obj_read(const char *path, Diagnostics *diagnostics, ObjFile *obj, Error *error);
 
-// Frees what obj holds and zeroes it; a zeroed ObjFile is fine. A caller that keeps obj->mesh zeroes it before.
+// Frees what obj holds and zeroes it; a zeroed ObjFile is fine. A caller that keeps obj->mesh zeroes it
+// before.
 void obj_destroy(ObjFile *obj);
 
 #endif

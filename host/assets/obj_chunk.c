@@ -41,16 +41,13 @@ static void *grow(ObjBuilder *builder, void *array, size_t *room, size_t more, s
     return grown;
 }
 
-void obj_add_position(ObjBuilder *builder, Vec3 position)
+bool obj_grow_positions(ObjBuilder *builder)
 {
     ObjChunk *chunk = &builder->chunk;
-    if (chunk->position_count == builder->position_room) {
-        Vec3 *grown = grow(builder, chunk->positions, &builder->position_room, 1, sizeof *grown);
-        if (!grown)
-            return;
+    Vec3 *grown = grow(builder, chunk->positions, &builder->position_room, 1, sizeof *grown);
+    if (grown)
         chunk->positions = grown;
-    }
-    chunk->positions[chunk->position_count++] = position;
+    return grown;
 }
 
 void obj_add_normal(ObjBuilder *builder, Vec3 normal)
@@ -91,8 +88,8 @@ void obj_add_uv(ObjBuilder *builder, f64 u, f64 v)
     stored[1] = (f32)v;
 }
 
-// Makes room for one more face in all arrays of faces that there are.
-static bool grow_faces(ObjBuilder *builder)
+// In all arrays of faces that there are.
+bool obj_grow_faces(ObjBuilder *builder)
 {
     ObjChunk *chunk = &builder->chunk;
     size_t room = builder->face_room;
@@ -125,21 +122,22 @@ static void store_indices(i32 indices[3], i32 a, i32 b, i32 c)
     indices[2] = c;
 }
 
-void obj_add_face(ObjBuilder *builder, ObjCorner a, ObjCorner b, ObjCorner c)
+void obj_add_full_face(ObjBuilder *builder, const ObjCorner *a, const ObjCorner *b, const ObjCorner *c)
 {
     ObjChunk *chunk = &builder->chunk;
-    if (chunk->face_count == builder->face_room && !grow_faces(builder))
+    if (chunk->face_count == builder->face_room && !obj_grow_faces(builder))
         return;
-    if (!chunk->face_normals && (a.normal | b.normal | c.normal) && !begin_indices(builder, &chunk->face_normals))
+    if (!chunk->face_normals && (a->normal | b->normal | c->normal) &&
+        !begin_indices(builder, &chunk->face_normals))
         return;
-    if (!chunk->face_uvs && (a.uv | b.uv | c.uv) && !begin_indices(builder, &chunk->face_uvs))
+    if (!chunk->face_uvs && (a->uv | b->uv | c->uv) && !begin_indices(builder, &chunk->face_uvs))
         return;
     const size_t face = chunk->face_count++;
-    store_indices(chunk->faces[face], a.position, b.position, c.position);
+    store_indices(chunk->faces[face], a->position, b->position, c->position);
     if (chunk->face_normals)
-        store_indices(chunk->face_normals[face], a.normal, b.normal, c.normal);
+        store_indices(chunk->face_normals[face], a->normal, b->normal, c->normal);
     if (chunk->face_uvs)
-        store_indices(chunk->face_uvs[face], a.uv, b.uv, c.uv);
+        store_indices(chunk->face_uvs[face], a->uv, b->uv, c->uv);
 }
 
 void obj_add_mark(ObjBuilder *builder, ObjMarkKind kind, ObjText *text)
@@ -196,8 +194,9 @@ bool obj_pack(ObjBuilder *builder, ObjChunk *chunk)
     *chunk = *from;
     const size_t face_arrays = 1u + (from->face_normals != NULL) + (from->face_uvs != NULL);
     // Below 2^40 for any room, so nothing overflows. Doubles and pointers come first.
-    const size_t bytes = from->position_count * sizeof *from->positions + from->mark_count * sizeof *from->marks +
-                         from->normal_count * sizeof *from->normals + from->uv_count * sizeof *from->uvs +
+    const size_t bytes = from->position_count * sizeof *from->positions +
+                         from->mark_count * sizeof *from->marks + from->normal_count * sizeof *from->normals +
+                         from->uv_count * sizeof *from->uvs +
                          from->face_count * sizeof *from->faces * face_arrays + from->name_bytes;
     unsigned char *end = malloc(bytes + 1);
     if (!end) {

@@ -52,8 +52,18 @@ typedef struct ObjCounts {
 void obj_builder_clear(ObjBuilder *builder);
 void obj_builder_destroy(ObjBuilder *builder);
 
-// Appends; the builder is as before, but for no_memory, where there is no memory.
-void obj_add_position(ObjBuilder *builder, Vec3 position);
+// Make room for one more; false, with no_memory, where there is none.
+bool obj_grow_positions(ObjBuilder *builder);
+bool obj_grow_faces(ObjBuilder *builder);
+
+// Append; the builder is as before, but for no_memory, where there is no memory.
+static inline void obj_add_position(ObjBuilder *builder, Vec3 position)
+{
+    ObjChunk *chunk = &builder->chunk;
+    if (chunk->position_count < builder->position_room || obj_grow_positions(builder))
+        chunk->positions[chunk->position_count++] = position;
+}
+
 void obj_add_normal(ObjBuilder *builder, Vec3 normal);
 void obj_add_uv(ObjBuilder *builder, f64 u, f64 v);
 
@@ -61,7 +71,24 @@ typedef struct ObjCorner {
     i32 position, normal, uv;
 } ObjCorner;
 
-void obj_add_face(ObjBuilder *builder, ObjCorner a, ObjCorner b, ObjCorner c);
+// obj_add_face for any face.
+void obj_add_full_face(ObjBuilder *builder, const ObjCorner *a, const ObjCorner *b, const ObjCorner *c);
+
+static inline void obj_add_face(ObjBuilder *builder, const ObjCorner *a, const ObjCorner *b,
+                                const ObjCorner *c)
+{
+    ObjChunk *chunk = &builder->chunk;
+    const bool plain = (a->normal | b->normal | c->normal | a->uv | b->uv | c->uv) == 0 &&
+                       !chunk->face_normals && !chunk->face_uvs;
+    if (!plain) {
+        obj_add_full_face(builder, a, b, c);
+    } else if (chunk->face_count < builder->face_room || obj_grow_faces(builder)) {
+        i32 *face = chunk->faces[chunk->face_count++];
+        face[0] = a->position;
+        face[1] = b->position;
+        face[2] = c->position;
+    }
+}
 
 // Appends a mark whose name is the rest of the statement; text->line is that of the mark.
 void obj_add_mark(ObjBuilder *builder, ObjMarkKind kind, ObjText *text);
@@ -75,7 +102,8 @@ bool obj_encode(i64 index, size_t count, i32 *code);
 bool obj_pack(ObjBuilder *builder, ObjChunk *chunk);
 
 // Reads the statement at the cursor and goes to the next one. What is wrong is reported, and left out. With
-// counts, `before` and `total` of the file, indices are checked, too. unknown collects keywords that are none.
+// counts, `before` and `total` of the file, indices are checked, too. unknown collects keywords that are
+// none.
 void obj_statement(ObjText *text, ObjBuilder *builder, ObjWords *unknown, const ObjCounts *before,
                    const ObjCounts *total);
 

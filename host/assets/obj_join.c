@@ -76,7 +76,8 @@ static void copy_elements(const ObjPiece *piece, Mesh *mesh)
 {
     const ObjChunk *chunk = &piece->chunk;
     const ObjCounts *before = &piece->before;
-    copy(mesh->positions, before->positions, chunk->positions, chunk->position_count, sizeof *mesh->positions);
+    copy(mesh->positions, before->positions, chunk->positions, chunk->position_count,
+         sizeof *mesh->positions);
     if (mesh->normals)
         copy(mesh->normals, before->normals, chunk->normals, chunk->normal_count, sizeof *mesh->normals);
     if (mesh->uvs)
@@ -89,17 +90,16 @@ static u32 decode(i32 code, u32 before)
     return code > 0 ? (u32)code - 1 : (u32)code + OBJ_COUNT_MAX + before;
 }
 
-// Decodes indices that every face has. Returns whether all refer to something.
-static bool resolve_all(const i32 (*codes)[3], u32 (*indices)[3], size_t count, u64 before, u64 total)
+// Decodes count indices that are not 0. Returns whether all refer to something.
+static bool resolve_all(const i32 *codes, u32 *indices, size_t count, u64 before, u64 total)
 {
     const u32 first = (u32)before, end = (u32)total;
     u32 wrong = 0;
+#pragma omp simd reduction(| : wrong)
     for (size_t i = 0; i < count; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            const u32 index = decode(codes[i][k], first);
-            wrong |= index >= end;
-            indices[i][k] = index;
-        }
+        const u32 index = decode(codes[i], first);
+        wrong |= index >= end;
+        indices[i] = index;
     }
     return wrong == 0;
 }
@@ -147,8 +147,8 @@ static void join_faces(ObjPiece *piece, const ObjCounts *total, bool zero_normal
     const size_t count = chunk->face_count;
     if (count == 0)
         return;
-    bool right = resolve_all((const i32(*)[3])chunk->faces, mesh->faces + before->faces, count,
-                             before->positions, total->positions);
+    bool right = resolve_all(chunk->faces[0], mesh->faces[before->faces], 3 * count, before->positions,
+                             total->positions);
     if (mesh->face_uvs)
         right &= resolve_some((const i32(*)[3])chunk->face_uvs, mesh->face_uvs + before->faces, count,
                               before->uvs, total->uvs);
@@ -177,7 +177,8 @@ static void drop_chunk(ObjChunk *chunk)
     *chunk = (ObjChunk){ 0 };
 }
 
-bool obj_join(ObjPiece *pieces, size_t count, const ObjCounts *total, const char *path, ObjFile *obj, Error *error)
+bool obj_join(ObjPiece *pieces, size_t count, const ObjCounts *total, const char *path, ObjFile *obj,
+              Error *error)
 {
     Mesh *mesh = &obj->mesh;
     if (!allocate_mesh(pieces, count, total, mesh))

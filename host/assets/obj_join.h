@@ -24,7 +24,8 @@ ObjCounts obj_sum(ObjPiece *pieces, size_t count);
 // Makes obj->mesh of the pieces, which give up their chunks, and the names of obj. A piece with an index to
 // nothing becomes faulty. total, from obj_sum, is at most OBJ_COUNT_MAX of anything. `path` is where the
 // libraries are looked for. Fails with ERROR_MEMORY.
-bool obj_join(ObjPiece *pieces, size_t count, const ObjCounts *total, const char *path, ObjFile *obj, Error *error);
+bool obj_join(ObjPiece *pieces, size_t count, const ObjCounts *total, const char *path, ObjFile *obj,
+              Error *error);
 
 // Parts, materials and libraries from the marks of the pieces, as obj_join needs them.
 bool obj_join_names(const ObjPiece *pieces, size_t count, u32 face_count, const char *path, ObjFile *obj,

@@ -31,14 +31,18 @@ static const char *read_digits(const char *p, i32 step, Decimal *decimal)
     unsigned count = 8;
     while (count == 8) {
         const u64 eight = obj_eight(p);
-        count = obj_digit_count(eight);
+        const unsigned digits_end = obj_digits_end(eight);
+        count = digits_end / 8;
+        if (count == 0)
+            break;
         if (decimal->mantissa < limits[count]) {
-            decimal->mantissa = decimal->mantissa * obj_powers_u32[count] + obj_digits_value(eight, count);
+            decimal->mantissa *= obj_powers_u32[count];
+            decimal->mantissa += obj_digits_value(eight, digits_end);
             decimal->exponent += step * (i32)count;
         } else {
             decimal->overlong = true;
         }
-        decimal->any |= count > 0;
+        decimal->any = true;
         p += count;
     }
     return p;
@@ -98,12 +102,12 @@ const char *obj_number(const char *text, f64 *value)
     const u64 mantissa = decimal.mantissa;
     const i32 exponent = decimal.exponent;
     f64 magnitude;
-    if (!decimal.overlong && (mantissa == 0 || (mantissa <= UINT64_C(1) << 53 && exponent >= -22 && exponent <= 22))) {
+    if (mantissa == 0 && !decimal.overlong) {
+        magnitude = 0;
+    } else if (!decimal.overlong && mantissa <= UINT64_C(1) << 53 && exponent >= -22 && exponent <= 22) {
         // Both factors are exact (Clinger 1990).
         const f64 whole = (f64)(i64)mantissa;
-        magnitude = mantissa == 0 ? 0
-                    : exponent < 0 ? whole / obj_powers_f64[-exponent]
-                                   : whole * obj_powers_f64[exponent];
+        magnitude = exponent < 0 ? whole / obj_powers_f64[-exponent] : whole * obj_powers_f64[exponent];
 #ifdef __SIZEOF_INT128__
     } else if (!decimal.overlong && exponent < 0 && exponent >= -DIVIDED_PLACES_MAX) {
         magnitude = divide_exactly(mantissa, (unsigned)-exponent);

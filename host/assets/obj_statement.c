@@ -71,8 +71,8 @@ static void read_uv(const Statement *statement)
 
 // One of the kinds of things that a corner has an index of.
 typedef struct Kind {
-    const char *name, *plural;
-    size_t in_chunk;     // elements
+    const char *name;
+    size_t in_chunk; // elements
     u64 before, total;
 } Kind;
 
@@ -81,20 +81,21 @@ static bool check_index(const Statement *statement, const ObjWord *word, i64 ind
 {
     const u64 defined = kind->before + kind->in_chunk;
     if (index > 0 && (u64)index > kind->total) {
-        obj_text_report(statement->text, SEVERITY_ERROR, word, "there is no %s %.*s: the file has %llu %s",
-                        kind->name, quoted(word), word->text, (unsigned long long)kind->total, kind->plural);
+        obj_text_report(statement->text, SEVERITY_ERROR, word, "there is no %s %.*s: the file has %llu",
+                        kind->name, quoted(word), word->text, (unsigned long long)kind->total);
         return false;
     }
     if (index < 0 && (u64)-index > defined) {
         obj_text_report(statement->text, SEVERITY_ERROR, word,
-                        "there is no %s %.*s: up to here the file has %llu %s", kind->name, quoted(word),
-                        word->text, (unsigned long long)defined, kind->plural);
+                        "there is no %s %.*s: up to here the file has %llu", kind->name, quoted(word),
+                        word->text, (unsigned long long)defined);
         return false;
     }
     return true;
 }
 
-// Reads "[+-]digits" from *p on, which moves behind it; false where there are none. Huge ones become about 10^18.
+// Reads "[+-]digits" from *p on, which moves behind it; false where there are none. Huge ones become about
+// 10^18.
 static bool read_integer(const char **p, const char *end, i64 *value)
 {
     const char *sign = *p;
@@ -120,9 +121,9 @@ static bool read_corner(const Statement *statement, const ObjWord *word, ObjCorn
     const ObjCounts *before = statement->before ? statement->before : &none;
     const ObjCounts *total = statement->total ? statement->total : &none;
     const Kind kinds[3] = {
-        { "vertex", "vertices", chunk->position_count, before->positions, total->positions },
-        { "texture coordinate", "of them", chunk->uv_count, before->uvs, total->uvs },
-        { "normal", "of them", chunk->normal_count, before->normals, total->normals },
+        { "vertex", chunk->position_count, before->positions, total->positions },
+        { "texture coordinate", chunk->uv_count, before->uvs, total->uvs },
+        { "normal", chunk->normal_count, before->normals, total->normals },
     };
     i32 codes[3] = { 0 };
     const char *p = word->text, *end = word->text + word->length;
@@ -173,7 +174,7 @@ static void read_face(const Statement *statement)
         if (count == 0)
             first = corner;
         else if (count > 1)
-            obj_add_face(builder, first, last, corner);
+            obj_add_face(builder, &first, &last, &corner);
         last = corner;
         ++count;
     }
@@ -188,9 +189,9 @@ static void read_face(const Statement *statement)
 static bool is_ignored(const ObjWord *keyword)
 {
     static const char *const ignored[] = {
-        "o", "g", "s", "l", "p", "mg", "usemap", "maplib", "vp", "cstype", "deg", "bmat", "step", "curv", "curv2",
-        "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "bevel", "c_interp", "d_interp", "lod",
-        "shadow_obj", "trace_obj", "ctech", "stech", "bsp", "bzp", "cdc", "cdp", "res"
+        "o", "g", "s", "l", "p", "mg", "usemap", "maplib", "vp", "cstype", "deg", "bmat", "step", "curv",
+        "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "bevel", "c_interp", "d_interp",
+        "lod", "shadow_obj", "trace_obj", "ctech", "stech", "bsp", "bzp", "cdc", "cdp", "res"
     };
     for (size_t i = 0; i < sizeof ignored / sizeof *ignored; ++i) {
         if (obj_word_is(keyword, ignored[i]))

@@ -73,15 +73,22 @@ bool obj_text_word(ObjText *text, ObjWord *word)
 
 void obj_text_next_statement(ObjText *text)
 {
-    bool comment = false;
-    while (!at_statement_end(text, text->cursor)) {
-        comment |= *text->cursor == '#';
-        const bool continued = !comment && at_continuation(text, text->cursor);
-        ++text->cursor;
-        if (continued && text->cursor < text->end)
+    const char *p = text->cursor, *end = text->end;
+    for (;; ++p) {
+        while (p < end && *p != '\n' && *p != '\r' && *p != '#' && *p != '\\')
+            ++p;
+        if (p == end || *p != '\\')
+            break;
+        if (p + 1 < end && at_continuation(text, p)) {
+            text->cursor = p + 1;
             next_line(text);
+            p = text->cursor - 1;
+        }
     }
-    if (text->cursor < text->end)
+    while (p < end && *p != '\n' && *p != '\r') // a comment is not continued
+        ++p;
+    text->cursor = p;
+    if (p < end)
         next_line(text);
 }
 
@@ -122,7 +129,11 @@ size_t obj_text_rest(ObjText *text, char *to, ObjWord *place)
 
 bool obj_word_is(const ObjWord *word, const char *name)
 {
-    return strlen(name) == word->length && memcmp(word->text, name, word->length) == 0;
+    for (size_t i = 0; i < word->length; ++i) {
+        if (name[i] != word->text[i] || name[i] == 0)
+            return false;
+    }
+    return name[word->length] == 0;
 }
 
 bool obj_text_number(ObjText *text, const ObjWord *word, f64 *value)

@@ -40,8 +40,8 @@ void obj_text_next_statement(ObjText *text);
 // An upper bound of the bytes that obj_text_rest stores.
 size_t obj_text_rest_bound(const ObjText *text);
 
-// Copies the rest of the statement to `to`, without blanks around it and with a final 0; a name can hold blanks
-// and '#'. *place tells where it stands. Returns the number of bytes before the 0.
+// Copies the rest of the statement to `to`, without blanks around it and with a final 0; a name can hold
+// blanks and '#'. *place tells where it stands. Returns the number of bytes before the 0.
 size_t obj_text_rest(ObjText *text, char *to, ObjWord *place);
 
 bool obj_word_is(const ObjWord *word, const char *name);

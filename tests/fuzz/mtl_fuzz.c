@@ -1,6 +1,6 @@
-// The MTL reader under a fuzzer: any bytes give materials within their ranges, with messages or without. Built
-// with -fsanitize=fuzzer it is a libFuzzer target; without (no CLRT_FUZZ) it is a program that runs the files it
-// is given.
+// The MTL reader under a fuzzer: any bytes give materials within their ranges, with messages or without.
+// Built with -fsanitize=fuzzer it is a libFuzzer target; without (no CLRT_FUZZ) it is a program that runs the
+// files it is given.
 #include "fuzz_file.h"
 
 #include <float.h>

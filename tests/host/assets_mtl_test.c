@@ -75,7 +75,8 @@ static void test_materials(void **state)
     expect("newmtl a", "a 1\n");
     expect("newmtl red\nKa 1 1 1\nKd 0.8 0.1 0\nKs .5 .5 .5\nKe 0 0 2\nNs 96.5\nNi 1.45\nd 0.25\nillum 2\n",
            "red 1 Kd 0.8 0.1 0 Ks 0.5 0.5 0.5 Ke 0 0 2 Ns 96.5 Ni 1.45 d 0.25\n");
-    expect("\xEF\xBB\xBF# made by hand\r\n\r\nnewmtl a b \r\n\tKd 1 1 1 # white\r\n  newmtl\tc#1\r\n\tNs 5\r\n",
+    expect("\xEF\xBB\xBF# made by hand\r\n\r\nnewmtl a b \r\n\tKd 1 1 1 # white\r\n"
+           "  newmtl\tc#1\r\n\tNs 5\r\n",
            "a b 3 Kd 1 1 1\nc#1 5 Ns 5\n");
     expect("newmtl a\rKd 1 \\\r 0 0\rnewmtl b\rd 1", "a 1 Kd 1 0 0\nb 4 d 1\n");
     // A grey; the last of several; colours above 1.
@@ -90,15 +91,17 @@ static void test_opacity(void **state)
     expect("newmtl a\nTr 0.25\n", "a 1 d 0.75\n");
     expect("newmtl a\nTr 0.25\nd 0.5\n", "a 1 d 0.5\n");
     expect("newmtl a\nd 0.5\nTr 0.25\nnewmtl b\nTr 1\n", "a 1 d 0.5\nb 4 d 0\n");
-    expect("newmtl a\nd -halo 0.5\n", "a 1 d 0.5\nt.mtl:2:3: warning: -halo is not supported; it is left out\n"
-                                      "    d -halo 0.5\n      ^~~~~\n");
+    expect("newmtl a\nd -halo 0.5\n",
+           "a 1 d 0.5\nt.mtl:2:3: warning: -halo is not supported; it is left out\n"
+           "    d -halo 0.5\n      ^~~~~\n");
 }
 
 static void test_maps(void **state)
 {
     (void)state;
     expect("newmtl a\nmap_Kd wood.png\nmap_Bump bumps.png\n", "a 1 map_Kd [wood.png] 2 bump [bumps.png] 3\n");
-    expect("newmtl a\nmap_kd my wood #1.png \nbump b.png\n", "a 1 map_Kd [my wood #1.png] 2 bump [b.png] 3\n");
+    expect("newmtl a\nmap_kd my wood #1.png \nbump b.png\n",
+           "a 1 map_Kd [my wood #1.png] 2 bump [b.png] 3\n");
     // norm goes first, wherever it stands.
     expect("newmtl a\nnorm n.png\nmap_bump b.png\nnewmtl b\nbump b.png\nnorm n.png\n",
            "a 1 bump [n.png] 2\nb 4 bump [n.png] 6\n");
@@ -121,7 +124,8 @@ static void test_skipped(void **state)
 {
     (void)state;
     expect("newmtl a\nKa 1 1 1\nTf 1 1 1\nillum 4\nsharpness 60\nmap_Ka a.png\nmap_Ks b.png\nmap_Ns c.png\n"
-           "map_d d.png\ndisp e.png\ndecal f.png\nrefl -type sphere g.png\nPr 0.5\nPm 0\naniso 0\nmap_Pr h.png\n",
+           "map_d d.png\ndisp e.png\ndecal f.png\nrefl -type sphere g.png\nPr 0.5\nPm 0\naniso 0\n"
+           "map_Pr h.png\n",
            "a 1\n");
     expect("Kd 1 1 1\nNs 5\nnewmtl a\nfoo 1\nfoo 2\nkd 1 1 1\n",
            "a 3\nt.mtl:1:1: warning: 'Kd' before the first newmtl; it is left out\n    Kd 1 1 1\n    ^~\n"
@@ -160,6 +164,26 @@ static void test_errors(void **state)
     expect("newmtl  \n", " 1\nt.mtl:1:9: error: newmtl needs a name\n    newmtl  \n            ^\n");
     expect_bytes("newmtl a\nd 1\0 \n", 14,
                  "a 1\nt.mtl:2:3: error: '1' is not a number\n    d 1  \n      ^~\n");
+}
+
+static void check_crasher(const char *path)
+{
+    Diagnostics *diagnostics = diagnostics_create();
+    assert_non_null(diagnostics);
+    MtlFile mtl;
+    Error error;
+    if (!mtl_read(path, diagnostics, &mtl, &error))
+        fail_msg("%s: %s", path, error.text);
+    for (u32 i = 0; i < mtl.count; ++i)
+        assert_non_null(mtl.materials[i].name);
+    mtl_destroy(&mtl);
+    diagnostics_destroy(diagnostics);
+}
+
+static void test_crashers(void **state)
+{
+    (void)state;
+    assert_true(for_each_crasher(".mtl", check_crasher) >= 5);
 }
 
 static void test_failures(void **state)
@@ -213,7 +237,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_materials), cmocka_unit_test(test_opacity), cmocka_unit_test(test_maps),
         cmocka_unit_test(test_skipped),   cmocka_unit_test(test_ranges),  cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_failures),  cmocka_unit_test(test_many),
+        cmocka_unit_test(test_crashers),  cmocka_unit_test(test_failures), cmocka_unit_test(test_many),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -2,6 +2,7 @@
 #ifndef CLRT_TESTS_ASSETS_OBJ_FIXTURE_H
 #define CLRT_TESTS_ASSETS_OBJ_FIXTURE_H
 
+#include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,6 +39,25 @@ static inline void write_bytes(const char *name, const char *bytes, size_t lengt
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, length, file), length);
     assert_int_equal(fclose(file), 0);
+}
+
+// Calls check with the path of each file of tests/crashers whose name ends so; returns how many.
+static inline u32 for_each_crasher(const char *suffix, void (*check)(const char *path))
+{
+    DIR *directory = opendir(CLRT_TESTS "/crashers");
+    assert_non_null(directory);
+    u32 count = 0;
+    for (const struct dirent *entry; (entry = readdir(directory));) {
+        const size_t length = strlen(entry->d_name), tail = strlen(suffix);
+        if (length < tail || strcmp(entry->d_name + length - tail, suffix) != 0)
+            continue;
+        char path[1000];
+        snprintf(path, sizeof path, CLRT_TESTS "/crashers/%s", entry->d_name);
+        check(path);
+        ++count;
+    }
+    closedir(directory);
+    return count;
 }
 
 // A stream that writes to *text.

@@ -6,22 +6,43 @@
 static const f64 SAME_T = 1e-6;
 static const f64 UNIT = 0x1p-24; // half an ulp of 1
 static const f64 TESTS_MAX = 3e8;
+enum { ARBITRATED_MAX = 16 };
+
+// How far apart two t are, relative to the larger one.
+static f64 apart(const RayHits *a, const RayHits *b, u32 i)
+{
+    return fabs((f64)a->t[i] - b->t[i]) / fmax(a->t[i], b->t[i]);
+}
+
+static bool both_hit(const RayHits *a, const RayHits *b, u32 i)
+{
+    return a->primitive[i] != NO_PRIMITIVE && b->primitive[i] != NO_PRIMITIVE;
+}
+
+static bool differ_in_hitting(const RayHits *a, const RayHits *b, u32 i)
+{
+    return (a->primitive[i] != NO_PRIMITIVE) != (b->primitive[i] != NO_PRIMITIVE);
+}
+
+static u32 instance_of(const RayHits *hits, u32 i)
+{
+    return hits->instance[i] == NO_PRIMITIVE ? 0 : hits->instance[i];
+}
+
+static bool hit_others(const RaySet *rays, const RayHits *a, const RayHits *b, u32 i)
+{
+    return !rays->any_hit && both_hit(a, b, i) && apart(a, b, i) > SAME_T &&
+           (a->primitive[i] != b->primitive[i] || instance_of(a, i) != instance_of(b, i));
+}
 
 Mismatch hits_compare(const RaySet *rays, const RayHits *a, const RayHits *b)
 {
     Mismatch mismatch = {0, 0, 0};
     for (u32 i = 0; i < rays->count; i++) {
-        const bool hit = a->primitive[i] != NO_PRIMITIVE;
-        if (hit != (b->primitive[i] != NO_PRIMITIVE)) {
-            mismatch.hit_miss++;
-            continue;
-        }
-        if (!hit || rays->any_hit)
-            continue;
-        const f64 apart = fabs((f64)a->t[i] - b->t[i]) / fmax(a->t[i], b->t[i]);
-        const bool same = a->primitive[i] == b->primitive[i];
-        mismatch.other += !same && apart > SAME_T;
-        mismatch.t_error = fmax(mismatch.t_error, apart);
+        mismatch.hit_miss += differ_in_hitting(a, b, i);
+        mismatch.other += hit_others(rays, a, b, i);
+        if (!rays->any_hit && both_hit(a, b, i))
+            mismatch.t_error = fmax(mismatch.t_error, apart(a, b, i));
     }
     return mismatch;
 }
@@ -29,7 +50,7 @@ Mismatch hits_compare(const RaySet *rays, const RayHits *a, const RayHits *b)
 // A primitive met by a line, as double sees it.
 typedef struct Crossing {
     f64 t, t_error; // t_error: what the arithmetic in float may add to t
-    f64 margin;     // how far inside the edge or silhouette, in multiples of what float may blur; < 0: outside
+    f64 margin;     // how far inside the edge or silhouette, in multiples of what float may blur
 } Crossing;
 
 // A ray in the space of the primitives; reach: size of the numbers that went into it.
@@ -38,9 +59,26 @@ typedef struct Line {
     f64 reach;
 } Line;
 
-// False where the line runs within the plane.
+// Whether the line stays farther from the first corner than the rest of the face is, with what float may
+// blur: a quick answer for almost all faces.
+static bool passes_by(const Line *line, const Vec3 *corners)
+{
+    const Vec3 a = corners[0], b = corners[1], c = corners[2], d = line->dir;
+    const f64 x = a.x - line->org.x, y = a.y - line->org.y, z = a.z - line->org.z;
+    const f64 cx = y * d.z - z * d.y, cy = z * d.x - x * d.z, cz = x * d.y - y * d.x;
+    const f64 away = sqrt((cx * cx + cy * cy + cz * cz) / (d.x * d.x + d.y * d.y + d.z * d.z));
+    const f64 bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
+    const f64 ex = c.x - a.x, ey = c.y - a.y, ez = c.z - a.z;
+    const f64 edge = fmax(bx * bx + by * by + bz * bz, ex * ex + ey * ey + ez * ez);
+    const f64 size = line->reach + fabs(x) + fabs(y) + fabs(z);
+    return away > sqrt(edge) + 64 * UNIT * size;
+}
+
+// False where the line misses by far, or runs within the plane.
 static bool cross_face(const Line *line, const Vec3 *corners, Crossing *crossing)
 {
+    if (passes_by(line, corners))
+        return false;
     const Vec3 n = vec_cross(vec_sub(corners[1], corners[0]), vec_sub(corners[2], corners[0]));
     const f64 along = vec_dot(n, line->dir), area = vec_length(n), speed = vec_length(line->dir);
     if (along == 0)
@@ -149,7 +187,8 @@ typedef struct Job {
     const BenchScene *scene;
     const RaySet *rays;
     const RayHits *hits;
-    u32 step; // between rays that are checked
+    const u32 *list; // the rays; NULL: every step-th
+    u32 step;
     _Atomic u32 wrong;
 } Job;
 
@@ -176,8 +215,20 @@ static void check_rays(void *context, u32 begin, u32 end)
 {
     Job *job = context;
     for (u32 k = begin; k < end; k++)
-        if (!is_right(job, k * job->step))
+        if (!is_right(job, job->list ? job->list[k] : k * job->step))
             atomic_fetch_add(&job->wrong, 1);
+}
+
+Verdict hits_arbitrate(const BenchScene *scene, Pool *pool, const RaySet *rays, const RayHits *hits,
+                       const RayHits *others)
+{
+    u32 list[ARBITRATED_MAX], count = 0;
+    for (u32 i = 0; i < rays->count && count < ARBITRATED_MAX; i++)
+        if (differ_in_hitting(hits, others, i) || hit_others(rays, hits, others, i))
+            list[count++] = i;
+    Job job = {.scene = scene, .rays = rays, .hits = hits, .list = list};
+    pool_run(pool, check_rays, &job, count, 1);
+    return (Verdict){count, atomic_load(&job.wrong)};
 }
 
 Verdict hits_check(const BenchScene *scene, Pool *pool, const RaySet *rays, const RayHits *hits)

@@ -19,6 +19,10 @@ typedef struct Verdict {
     u32 wrong; // outside the band that the rounding to float blurs about edges, silhouettes and t
 } Verdict;
 
+// The verdict on hits where those of another tracer differ from them, as hits_compare counts it; a few rays.
+Verdict hits_arbitrate(const BenchScene *scene, Pool *pool, const RaySet *rays, const RayHits *hits,
+                       const RayHits *others);
+
 // Searches all primitives for rays spread over the set, as many as some hundred million tests allow.
 Verdict hits_check(const BenchScene *scene, Pool *pool, const RaySet *rays, const RayHits *hits);
 

@@ -78,13 +78,14 @@ static void attach_shapes(EmbreeScene *embree, RTCScene scene, const BenchScene 
     const Mesh *mesh = bench->mesh;
     const enum RTCGeometryType type = mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_SPHERE_POINT;
     RTCGeometry geometry = rtcNewGeometry(embree->device, type);
+    const f32 *vertices = embree->vertices;
     if (mesh) {
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, embree->vertices, 0,
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0,
                                    3 * sizeof(f32), mesh->position_count);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, embree->indices, 0,
                                    3 * sizeof(u32), mesh->face_count);
     } else {
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, embree->vertices, 0,
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, vertices, 0,
                                    4 * sizeof(f32), bench->primitive_count);
     }
     attach(scene, geometry);

@@ -1,5 +1,5 @@
-// What differs between Embree 3 and 4: how a query says whether its rays are coherent, and streams. Private to
-// embree*.c; CLRT_EMBREE is 3 or 4.
+// What differs between Embree 3 and 4: how a query says whether its rays are coherent, and streams. Private
+// to embree*.c; CLRT_EMBREE is 3 or 4.
 #ifndef CLRT_BENCH_EMBREE_API_H
 #define CLRT_BENCH_EMBREE_API_H
 

@@ -1,6 +1,6 @@
-// Geometry: what a scene of the bench consists of before it is a Scene: one mesh, many placements of one mesh,
-// or spheres; and from where it is seen. The generators fill a zeroed one with about as many triangles (or
-// spheres, or triangles of all placements) as asked for. Where memory runs out they set `failed`.
+// Geometry: what a scene of the bench consists of before it is a Scene: one mesh, many placements of one
+// mesh, or spheres; and from where it is seen. The generators fill a zeroed one with about as many triangles
+// (or spheres, or triangles of all placements) as asked for. Where memory runs out they set `failed`.
 #ifndef CLRT_BENCH_GEOMETRY_H
 #define CLRT_BENCH_GEOMETRY_H
 

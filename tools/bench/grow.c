@@ -6,7 +6,7 @@
 
 f64 random_at(u64 index, u32 seed)
 {
-    // The finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+    // Finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
     u64 x = (index + 1) * 0x9e3779b97f4a7c15u + (u64)seed * 0xd1342543de82ef95u;
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
     x = (x ^ x >> 27) * 0x94d049bb133111ebu;
@@ -58,8 +58,8 @@ static bool room_for(Grower *grower, size_t positions, size_t faces)
 {
     if (grower->failed)
         return false;
-    grower->positions = make_room(grower->positions, grower->position_count, &grower->position_room, positions,
-                                  sizeof *grower->positions, &grower->failed);
+    grower->positions = make_room(grower->positions, grower->position_count, &grower->position_room,
+                                  positions, sizeof *grower->positions, &grower->failed);
     grower->faces = make_room(grower->faces, grower->face_count, &grower->face_room, faces,
                               sizeof *grower->faces, &grower->failed);
     return !grower->failed;

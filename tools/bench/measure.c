@@ -73,7 +73,8 @@ static void take_layout(const Layout *layout, SceneResult *result)
 {
     result->nodes = layout->node_count;
     result->blocks = layout->block_count;
-    result->bytes = layout->node_count * (u64)sizeof(BvhNode) + layout->block_count * (u64)sizeof(TriangleBlock) +
+    result->bytes = layout->node_count * (u64)sizeof(BvhNode) +
+                    layout->block_count * (u64)sizeof(TriangleBlock) +
                     layout->primitive_count * (u64)(sizeof(Primitive) + sizeof(PrimitiveInfo));
 }
 
@@ -104,7 +105,8 @@ static bool build_all(Stage *stage, SceneResult *result, Error *error)
 
 // ---- tracing --------------------------------------------------------------------------------
 
-static bool trace_once(const Stage *stage, const Contender *c, const RaySet *rays, RayHits *hits, Error *error)
+static bool trace_once(const Stage *stage, const Contender *c, const RaySet *rays, RayHits *hits,
+                       Error *error)
 {
     if (!c->embree)
         return tracer_run(stage->tracer, error);
@@ -127,20 +129,20 @@ static bool take_turn(const Stage *stage, Contender *c, u32 round, const RaySet 
     return true;
 }
 
-// The first runs, which nothing is measured by but how often to repeat: code is generated and caches fill.
+// A first run, by which nothing is measured but how often to repeat.
 static bool warm_up(const Stage *stage, Contender *c, const Traced *traced, RayHits *spare, Error *error)
 {
-    f64 seconds = 0;
-    for (int run = 0; run < 2; run++) {
-        const f64 start = clock_seconds();
-        if (!trace_once(stage, c, traced->rays, spare, error))
-            return false;
-        seconds = clock_seconds() - start;
-    }
+    const f64 start = clock_seconds();
+    if (!trace_once(stage, c, traced->rays, spare, error))
+        return false;
+    const f64 seconds = clock_seconds() - start;
     const f64 wanted = stage->bench->options->turn_seconds / (seconds > 1e-6 ? seconds : 1e-6);
     c->repeats = wanted > 10000 ? 10000 : wanted > 1 ? (u32)wanted + 1 : 1;
-    if (c->embree)
+    if (c->embree) {
         c->mismatch = hits_compare(traced->rays, traced->hits, spare);
+        c->arbitration =
+            hits_arbitrate(stage->scene, stage->bench->pool, traced->rays, traced->hits, spare);
+    }
     return true;
 }
 

@@ -10,8 +10,8 @@
 
 enum { EMBREE_SCENES = 2, CONTENDERS_MAX = 1 + EMBREE_SCENES * EMBREE_MODES };
 
-// Rates are in rays a second: wall: over time that passed; cpu: over time that processors spent, divided by the
-// threads, which tells more on a machine that does other work too.
+// Rates are in rays a second: wall: over time that passed; cpu: over time that processors spent, divided by
+// the threads, which tells more on a machine that does other work too.
 typedef enum Metric { METRIC_WALL, METRIC_CPU, METRICS } Metric;
 
 typedef struct Contender {
@@ -20,6 +20,7 @@ typedef struct Contender {
     u32 repeats;         // of the set in a turn
     f64 rates[METRICS][ROUNDS_MAX], medians[METRICS];
     Mismatch mismatch; // of clrt's hits and these
+    Verdict arbitration; // on clrt's, where they differ
 } Contender;
 
 typedef struct SetResult {

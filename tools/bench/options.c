@@ -44,8 +44,8 @@ void options_print_usage(void)
     for (int i = 0; i < SCENE_KINDS; i++)
         printf("  %-12s %s (%u)\n", scene_kinds[i].name, scene_kinds[i].meaning, scene_kinds[i].triangles);
     printf("\n"
-           "Exit status: 0 done, 1 a mesh has errors, 2 usage, 3 no device or OpenCL failed, 4 a file could not be\n"
-           "written, 5 --check found wrong hits, 6 out of memory.\n");
+           "Exit status: 0 done, 1 a mesh has errors, 2 usage, 3 no device or OpenCL failed, 4 a file\n"
+           "could not be written, 5 --check found wrong hits, 6 out of memory.\n");
 }
 
 static bool parse_whole(const char *name, const char *text, u32 least, u32 most, u32 *value, Error *error)

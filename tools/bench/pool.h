@@ -1,5 +1,5 @@
-// Pool: the threads of the host that trace with Embree. They sleep between runs, so that a contender's turn is
-// not spent beside waiting threads of another one, as OpenMP's would be.
+// Pool: the threads of the host that trace with Embree. They sleep between runs, so that a contender's turn
+// is not spent beside threads of another one that wait in a loop, as OpenMP's do.
 #ifndef CLRT_BENCH_POOL_H
 #define CLRT_BENCH_POOL_H
 

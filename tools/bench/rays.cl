@@ -1,5 +1,5 @@
-// The kernels of clrt-bench: rays from memory through the traversal of renders, hits to memory. Columns lie side
-// by side, `stride` numbers each. Built with COUNT_VISITS=1 they also say what each batch visited.
+// The kernels of clrt-bench: rays from memory through the traversal of renders, hits to memory. Columns lie
+// side by side, `stride` numbers each. Built with COUNT_VISITS=1 they also say what each batch visited.
 #include "base/features.h"
 
 #include "stages/hit.h"
@@ -13,8 +13,10 @@ OUTLINE void weigh_hits(const Hierarchy *scene, const BatchRays *rays, const Bat
     const vi primitive = VI_LOAD(&hits->primitive[first]);
     const vm hit = (primitive >= (vi)(0)) & ((primitive & HIT_MESH) != (vi)(0));
     RayLanes ray;
-    ray.org = v3_make(VF_LOAD(&rays->org_x[first]), VF_LOAD(&rays->org_y[first]), VF_LOAD(&rays->org_z[first]));
-    ray.dir = v3_make(VF_LOAD(&rays->dir_x[first]), VF_LOAD(&rays->dir_y[first]), VF_LOAD(&rays->dir_z[first]));
+    ray.org = v3_make(VF_LOAD(&rays->org_x[first]), VF_LOAD(&rays->org_y[first]),
+                      VF_LOAD(&rays->org_z[first]));
+    ray.dir = v3_make(VF_LOAD(&rays->dir_x[first]), VF_LOAD(&rays->dir_y[first]),
+                      VF_LOAD(&rays->dir_z[first]));
 #if HAS_INSTANCES
     const Placement placement = placement_make(scene, VI_LOAD(&hits->instance[first]));
     placement_enter(&placement, &ray);

@@ -39,7 +39,7 @@ typedef struct RayHits {
     u32 count, stride;
     f32 *t, *u, *v;  // weights of the second and third corner
     u32 *primitive;  // face or sphere, or NO_PRIMITIVE
-    u32 *instance;   // 0 where there are none
+    u32 *instance;   // 0 or NO_PRIMITIVE where there are none
 } RayHits;
 
 // "camera", "mirror", ...

@@ -84,6 +84,17 @@ static Mismatch worst_mismatch(const SetResult *set, bool robust)
     return worst;
 }
 
+// Where clrt and Embree differ, in any mode.
+static Verdict arbitration(const SetResult *set)
+{
+    Verdict sum = {0, 0};
+    for (u32 k = 1; k < set->contender_count; k++) {
+        sum.checked += set->contenders[k].arbitration.checked;
+        sum.wrong += set->contenders[k].arbitration.wrong;
+    }
+    return sum;
+}
+
 static void add_set(Table *table, const char *scene, const SetResult *set, const BenchOptions *options)
 {
     const Contender *own = &set->contenders[0];
@@ -102,6 +113,8 @@ static void add_set(Table *table, const char *scene, const SetResult *set, const
         add_versus(table, set, false);
         table_cell(table, "%u %u %.0e", robust.hit_miss, robust.other, robust.t_error);
         table_cell(table, "%u %u %.0e", fast.hit_miss, fast.other, fast.t_error);
+        const Verdict verdict = arbitration(set);
+        table_cell(table, "%u of %u", verdict.wrong, verdict.checked);
     }
     if (options->check)
         table_cell(table, "%u of %u", set->verdict.wrong, set->verdict.checked);
@@ -127,9 +140,10 @@ static void report_rates(const SceneResult *scenes, u32 count, const BenchOption
     if (options->embree) {
         table_cell(table, "differ robust");
         table_cell(table, "differ fast");
+        table_cell(table, "clrt wrong");
     }
     if (options->check)
-        table_cell(table, "wrong");
+        table_cell(table, "check wrong");
     for (u32 i = 0; i < count; i++)
         for (u32 k = 0; k < scenes[i].set_count; k++)
             add_set(table, scenes[i].name, &scenes[i].sets[k], options);
@@ -183,9 +197,11 @@ void report_text(const SceneResult *scenes, u32 count, const BenchOptions *optio
     if (options->embree)
         printf("Embree %s, %s quality; ", embree_version(), options->high ? "high" : "medium");
     printf("%u rounds.\n", options->rounds);
-    printf("Rates in millions of rays a second, medians: over processor time divided by the threads, but those "
-           "under \"wall\".\nDiffer: hit or miss, another primitive at another t, largest |dt|/t. "
-           "!: below %d rays, not in the means.\n\n", RAYS_FEW);
+    printf("Rates in millions of rays a second, medians: over processor time divided by the threads, but\n"
+           "those under \"wall\". Differ: hit or miss, another primitive at another t, largest |dt|/t;\n"
+           "clrt wrong: by a search in double, of rays where they differ in any mode.\n"
+           "!: below %d rays, not in the means.\n\n",
+           RAYS_FEW);
     report_builds(scenes, count, options, &tables[0]);
     report_rates(scenes, count, options, &tables[1]);
     table_print(&tables[0], options->markdown);

@@ -28,8 +28,10 @@ static json_t *contender_object(const Contender *c, u32 rounds)
         rates_array(c->rates[METRIC_WALL], rounds));
     if (object && c->embree)
         json_object_set_new(object, "mismatch",
-                            json_pack("{s:o, s:o, s:f}", "hit_miss", whole(c->mismatch.hit_miss), "other",
-                                      whole(c->mismatch.other), "t_error", c->mismatch.t_error));
+                            json_pack("{s:o, s:o, s:f, s:o, s:o}", "hit_miss", whole(c->mismatch.hit_miss),
+                                      "other", whole(c->mismatch.other), "t_error", c->mismatch.t_error,
+                                      "arbitrated", whole(c->arbitration.checked), "clrt_wrong",
+                                      whole(c->arbitration.wrong)));
     return object;
 }
 
@@ -50,8 +52,9 @@ static json_t *set_object(const SetResult *set, const BenchOptions *options)
     json_t *object = json_pack(
         "{s:s, s:o, s:b, s:o, s:o, s:o, s:o, s:o}", "set", ray_kind_name(set->kind), "rays", whole(set->rays),
         "few", set->rays < RAYS_FEW, "contenders", contenders, "robust_cpu",
-        versus_object(set, true, METRIC_CPU), "robust_wall", versus_object(set, true, METRIC_WALL), "fast_cpu",
-        versus_object(set, false, METRIC_CPU), "fast_wall", versus_object(set, false, METRIC_WALL));
+        versus_object(set, true, METRIC_CPU), "robust_wall", versus_object(set, true, METRIC_WALL),
+        "fast_cpu", versus_object(set, false, METRIC_CPU), "fast_wall",
+        versus_object(set, false, METRIC_WALL));
     if (object && options->visits)
         json_object_set_new(object, "visits",
                             json_pack("{s:f, s:f}", "nodes", set->nodes, "leaves", set->leaves));

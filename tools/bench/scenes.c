@@ -17,7 +17,8 @@ const SceneKind scene_kinds[SCENE_KINDS] = {
 };
 
 static void (*const GENERATORS[SCENE_KINDS])(Geometry *, u32) = {
-    generate_blob, generate_hall, generate_sphereflake, generate_needles, generate_instances, generate_teapots,
+    generate_blob,    generate_hall,      generate_sphereflake,
+    generate_needles, generate_instances, generate_teapots,
 };
 
 typedef struct Bounds {

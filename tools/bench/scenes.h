@@ -1,5 +1,5 @@
-// BenchScene: a Scene of the bench, generated or read, with its camera at the origin, so that render space and
-// the world are one and both tracers get the same floats. Knows neither rays nor who traces them.
+// BenchScene: a Scene of the bench, generated or read, with its camera at the origin, so that render space
+// and the world are one and both tracers get the same floats. Knows neither rays nor who traces them.
 #ifndef CLRT_BENCH_SCENES_H
 #define CLRT_BENCH_SCENES_H
 
@@ -29,8 +29,9 @@ typedef struct SceneKind {
 enum { SCENE_KINDS = 6 };
 extern const SceneKind scene_kinds[SCENE_KINDS];
 
-// The scene called `name`, one of scene_kinds, or the mesh file at that path. triangles 0: as many as the kind
-// has. Fails with ERROR_USAGE for a name that is neither, ERROR_MEMORY, and what reading a file fails with.
+// The scene called `name`, one of scene_kinds, or the mesh file at that path. triangles 0: as many as the
+// kind has. Fails with ERROR_USAGE for a name that is neither, ERROR_MEMORY, and what reading a file fails
+// with.
 BenchScene *bench_scene_create(const char *name, u32 triangles, Error *error);
 void bench_scene_destroy(BenchScene *scene);
 

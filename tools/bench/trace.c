@@ -10,6 +10,7 @@
 #include "render/plan.h"
 #include "render/render.h"
 
+// rays.cl with all that it includes, as clrt-bundle writes it.
 extern const char bench_kernel_source[];
 extern const size_t bench_kernel_source_size;
 
@@ -63,7 +64,8 @@ static bool set_buffer(Tracer *tracer, const char *name, const Buffer *buffer, E
     if (!buffer)
         return false;
     for (u32 k = 0; k < KERNELS; k++)
-        if (kernel_has(tracer->kernels[k], name) && !kernel_set_buffer(tracer->kernels[k], name, buffer, error))
+        if (kernel_has(tracer->kernels[k], name) &&
+            !kernel_set_buffer(tracer->kernels[k], name, buffer, error))
             return false;
     return true;
 }

@@ -187,6 +187,10 @@ static void test_compare(void **state)
     m = hits_compare(f.rays, f.hits, other);
     assert_true(m.hit_miss == 1 && m.other == 1);
     assert_true(fabs(m.t_error - 0.2) < 1e-6);
+    Verdict verdict = hits_arbitrate(f.scene, f.pool, f.rays, f.hits, other);
+    assert_true(verdict.checked == 2 && verdict.wrong == 0);
+    verdict = hits_arbitrate(f.scene, f.pool, f.rays, other, f.hits);
+    assert_true(verdict.checked == 2 && verdict.wrong == 2);
     ray_hits_destroy(other);
     fixture_end(&f);
 }
