@@ -1,8 +1,8 @@
 // BVH build: binned surface-area heuristic (Wald, "On fast construction of SAH-based bounding volume
 // hierarchies", 2007), two-way, then collapsed to eight-way nodes at the least cost (Ylitie, Karras, Laine,
 // "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", 2017). Every input is in one
-// leaf: large triangles cut into several boxes before the build cost up to twice the nodes a ray in a hall or a
-// stadium, and only heaps of long needles aslant gained. Sees boxes, knows no shapes and no device.
+// leaf: large triangles cut into several boxes before the build cost up to twice the nodes a ray in a hall or
+// a stadium, and only heaps of long needles aslant gained. Sees boxes, knows no shapes and no device.
 //
 // Memory of a build, beside the boxes: 32 bytes an input, and about 13 a triangle or 100 a single for the
 // two-way hierarchy; the result is about 11 a triangle or 45 a single.

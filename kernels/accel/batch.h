@@ -25,37 +25,6 @@ static inline PrimitiveLanes primitive_splat(global const Primitive *p)
     return lanes;
 }
 
-// Lanes of `equal` whose hit on the primitive comes first in the order of definition.
-static inline vm wins_tie(const Hierarchy *scene, const BatchHits *hits, int first, vm equal, int primitive,
-                          int instance)
-{
-    uint winners = 0;
-    for (uint bits = vm_bits(equal); bits; bits &= bits - 1) {
-        const int k = lowest_bit(bits);
-        if (precedes_hit(scene, hits, first + k, primitive, instance))
-            winners |= 1u << k;
-    }
-    return vm_from_bits(winners);
-}
-
-#if HAS_TRANSMITTANCE
-// tmin for the primitive: surfaces that come after the last one crossed may lie at the very same t.
-static inline vf tmin_after_last(const Hierarchy *scene, const BatchHits *hits, int first, int primitive,
-                                 int instance)
-{
-    LanesF tmin;
-    tmin.v = VF_LOAD(&hits->tmin[first]);
-    if (!vm_any(VI_LOAD(&hits->last_primitive[first]) != (vi)(NO_HIT)))
-        return tmin.v;
-    for (int k = 0; k < LANES; k++) {
-        const real t = hits->tmin[first + k];
-        if (follows_last(scene, hits, first + k, primitive, instance))
-            tmin.s[k] = as_float(as_int(t) - 1);
-    }
-    return tmin.v;
-}
-#endif
-
 // Tests one primitive against the rays of mask. Rays that it stops are reported in the result.
 OUTLINE uint test_primitive(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
                                   int primitive, int instance)
@@ -78,28 +47,9 @@ OUTLINE uint test_primitive(const Hierarchy *scene, const BatchRays *rays, Batch
 #if HAS_INSTANCES
         ray.self = ray.self & (VI_LOAD(&hits->self_instance[first]) == (vi)(instance));
 #endif
-#if HAS_TRANSMITTANCE
         ray.tmin = tmin_after_last(scene, hits, first, primitive, instance);
-#else
-        ray.tmin = (vf)(0.0f);
-#endif
-        const vf tfar = VF_LOAD(&hits->tfar[first]);
         const vf t = intersect_primitive(record->kind & PRIMITIVE_KIND_MASK, &lanes, &ray);
-        const vm active = vm_from_bits(bits);
-        vm closer = active & (t < tfar);
-        const vm equal = active & (t == tfar) & (t < (vf)(INFINITY)) &
-                         (VI_LOAD(&hits->primitive[first]) != (vi)(NO_HIT));
-        if (vm_any(equal))
-            closer = closer | wins_tie(scene, hits, first, equal, primitive, instance);
-        const uint closer_bits = vm_bits(closer);
-        if (!closer_bits)
-            continue;
-        found |= closer_bits << first;
-        VF_STORE(closer ? t : tfar, &hits->tfar[first]);
-        VI_STORE(closer ? (vi)(primitive) : VI_LOAD(&hits->primitive[first]), &hits->primitive[first]);
-#if HAS_INSTANCES
-        VI_STORE(closer ? (vi)(instance) : VI_LOAD(&hits->instance[first]), &hits->instance[first]);
-#endif
+        found |= take_closer(scene, hits, first, vm_from_bits(bits), t, primitive, instance) << first;
     }
     return found;
 }

@@ -37,12 +37,12 @@ static inline void prepare_shear(const BatchRays *rays, BatchShear *s)
     }
 }
 
-// t of the face at `slot` for ray k: takes it over where it comes first. True where it does.
+// t > 0 of the face at `slot` for ray k: takes it over where it comes first. True where it does.
 static inline bool offer_face(const Hierarchy *scene, BatchHits *hits, int k, real t, int slot, int instance,
                               bool opaque_only)
 {
     const int primitive = slot | HIT_MESH;
-    if (!(t > 0.0f && t <= hits->tfar[k]))
+    if (t > hits->tfar[k])
         return false;
     if (opaque_only && (scene->blocks[slot >> 3].face[slot & 7] & FACE_TRANSMITS))
         return false;
@@ -56,16 +56,6 @@ static inline bool offer_face(const Hierarchy *scene, BatchHits *hits, int k, re
         return false;
     take_hit(hits, k, t, primitive, instance);
     return true;
-}
-
-// The t of woop_distance where the rays pass within, INFINITY elsewhere. z of the vertices is not scaled yet.
-static inline vf face_distance(v3 a, v3 b, v3 c, vf shear_z)
-{
-    a.z = a.z * shear_z;
-    b.z = b.z * shear_z;
-    c.z = c.z * shear_z;
-    const TriangleWeights w = woop_weights(a, b, c);
-    return w.within ? woop_distance(&w) : (vf)(INFINITY);
 }
 
 // A number of ray k for each lane; of rays k and other where a vector holds two.
@@ -117,12 +107,16 @@ static inline uint test_block_by_ray(const Hierarchy *scene, const BatchShear *s
             const v3 a = block_vertex(vertices, s, k, other, first);
             const v3 b = block_vertex(vertices + 3 * BLOCK_WIDTH, s, k, other, first);
             const v3 c = block_vertex(vertices + 6 * BLOCK_WIDTH, s, k, other, first);
-            const vm candidates = woop_candidates(a, b, c);
-            if (!vm_any(candidates))
+            const FlatWeights w = flat_weights(a, b, c);
+            uint lanes = vm_bits(w.inside);
+            if (!lanes)
                 continue;
+            if (vm_any(w.on_edge))
+                lanes &= vm_bits(!w.on_edge | woop_on_edge(a, b, c));
             LanesF t;
-            t.v = face_distance(a, b, c, ray_lanes(s->shear_z, k, other));
-            for (uint lanes = vm_bits(candidates & (t.v < (vf)(INFINITY))); lanes; lanes &= lanes - 1) {
+            t.v = flat_distance(&w, a, b, c, ray_lanes(s->shear_z, k, other));
+            lanes &= vm_bits((t.v > (vf)(0.0f)) & (t.v <= ray_lanes(hits->tfar, k, other)));
+            for (; lanes; lanes &= lanes - 1) {
                 const int lane = lowest_bit(lanes);
                 const int ray = lane < BLOCK_WIDTH ? k : other;
                 if (offer_face(scene, hits, ray, t.s[lane], block * BLOCK_WIDTH + first + lane % BLOCK_WIDTH,
@@ -135,6 +129,21 @@ static inline uint test_block_by_ray(const Hierarchy *scene, const BatchShear *s
 }
 
 #if LANES > 1
+// The same for the lanes of `on` among the rays from `first` on; returns their bits.
+static inline uint offer_face_lanes(const Hierarchy *scene, BatchHits *hits, int first, vm on, vf t, int slot,
+                                    int instance, bool opaque_only)
+{
+    const int primitive = slot | HIT_MESH;
+    if (opaque_only && (scene->blocks[slot >> 3].face[slot & 7] & FACE_TRANSMITS))
+        return 0;
+    vm self = VI_LOAD(&hits->self[first]) >> 1 == (vi)(primitive);
+#if HAS_INSTANCES
+    self = self & (VI_LOAD(&hits->self_instance[first]) == (vi)(instance));
+#endif
+    on = on & !self & (t > tmin_after_last(scene, hits, first, primitive, instance));
+    return take_closer(scene, hits, first, on, t, primitive, instance);
+}
+
 // One triangle after the other against the rays of mask, which share their main axis.
 static inline uint test_block_by_triangle(const Hierarchy *scene, const BatchShear *s, BatchHits *hits,
                                           uint mask, int block, int count, int instance, bool opaque_only)
@@ -156,17 +165,15 @@ static inline uint test_block_by_triangle(const Hierarchy *scene, const BatchShe
                 v[j] = shear_flat(v3_sub(v3_make((vf)(x[at]), (vf)(y[at]), (vf)(z[at])), org), shear_x,
                                   shear_y);
             }
-            const uint candidates = vm_bits(woop_candidates(v[0], v[1], v[2])) & bits;
-            if (!candidates)
+            const FlatWeights w = flat_weights(v[0], v[1], v[2]);
+            vm within = w.inside & vm_from_bits(bits);
+            if (!vm_any(within))
                 continue;
-            LanesF t;
-            t.v = face_distance(v[0], v[1], v[2], VF_LOAD(&s->shear_z[k]));
-            for (uint lanes = candidates & vm_bits(t.v < (vf)(INFINITY)); lanes; lanes &= lanes - 1) {
-                const int lane = lowest_bit(lanes);
-                if (offer_face(scene, hits, k + lane, t.s[lane], block * BLOCK_WIDTH + i, instance,
-                               opaque_only))
-                    found |= 1u << (k + lane);
-            }
+            if (vm_any(w.on_edge))
+                within = within & (!w.on_edge | woop_on_edge(v[0], v[1], v[2]));
+            const vf t = flat_distance(&w, v[0], v[1], v[2], VF_LOAD(&s->shear_z[k]));
+            found |= offer_face_lanes(scene, hits, k, within, t, block * BLOCK_WIDTH + i, instance, opaque_only)
+                     << k;
         }
     }
     return found;

@@ -181,4 +181,58 @@ static inline void take_hit(BatchHits *hits, int k, real t, int primitive, int i
 #endif
 }
 
+// Lanes of `equal` whose hit on the primitive comes first in the order of definition.
+static inline vm wins_tie(const Hierarchy *scene, const BatchHits *hits, int first, vm equal, int primitive,
+                          int instance)
+{
+    uint winners = 0;
+    for (uint bits = vm_bits(equal); bits; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        if (precedes_hit(scene, hits, first + k, primitive, instance))
+            winners |= 1u << k;
+    }
+    return vm_from_bits(winners);
+}
+
+// tmin for the primitive: surfaces that come after the last one crossed may lie at the very same t.
+static inline vf tmin_after_last(const Hierarchy *scene, const BatchHits *hits, int first, int primitive,
+                                 int instance)
+{
+#if HAS_TRANSMITTANCE
+    LanesF tmin;
+    tmin.v = VF_LOAD(&hits->tmin[first]);
+    if (!vm_any(VI_LOAD(&hits->last_primitive[first]) != (vi)(NO_HIT)))
+        return tmin.v;
+    for (int k = 0; k < LANES; k++) {
+        const real t = hits->tmin[first + k];
+        if (follows_last(scene, hits, first + k, primitive, instance))
+            tmin.s[k] = as_float(as_int(t) - 1);
+    }
+    return tmin.v;
+#else
+    return (vf)(0.0f);
+#endif
+}
+
+// Takes over t in the lanes of `active` where it comes first, for the rays from `first` on; returns their bits.
+static inline uint take_closer(const Hierarchy *scene, BatchHits *hits, int first, vm active, vf t,
+                               int primitive, int instance)
+{
+    const vf tfar = VF_LOAD(&hits->tfar[first]);
+    vm closer = active & (t < tfar);
+    const vm equal = active & (t == tfar) & (t < (vf)(INFINITY)) &
+                     (VI_LOAD(&hits->primitive[first]) != (vi)(NO_HIT));
+    if (vm_any(equal))
+        closer = closer | wins_tie(scene, hits, first, equal, primitive, instance);
+    const uint bits = vm_bits(closer);
+    if (!bits)
+        return 0;
+    VF_STORE(closer ? t : tfar, &hits->tfar[first]);
+    VI_STORE(closer ? (vi)(primitive) : VI_LOAD(&hits->primitive[first]), &hits->primitive[first]);
+#if HAS_INSTANCES
+    VI_STORE(closer ? (vi)(instance) : VI_LOAD(&hits->instance[first]), &hits->instance[first]);
+#endif
+    return bits;
+}
+
 #endif

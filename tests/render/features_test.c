@@ -18,7 +18,7 @@ static const struct {
     Feature feature;
     const char *words[3];
 } feature_words[] = {
-    {FEATURE_SURFACES, {"intersect_closest", "hit_make", "test_primitive"}},
+    {FEATURE_SURFACES, {"intersect_closest", "hit_make", NULL}},
     {FEATURE_BVH, {"push_children", "traverse_scene", "prepare_slabs"}},
     {FEATURE_INSTANCES, {"enter_instance", "SELF_INSTANCE", "surface_place"}},
     {FEATURE_SPHERE, {"intersect_sphere", "surface_sphere", NULL}},
@@ -33,6 +33,9 @@ static const struct {
     {FEATURE_TORUS, {"intersect_torus", "surface_torus", "torus_value"}},
     {FEATURE_TRIANGLE, {"intersect_triangle", "surface_triangle", NULL}},
     {FEATURE_TRIANGLE_EXTRA, {"hit_interpolate", NULL, NULL}},
+    {FEATURE_MESH, {"test_block", "mesh_hit_make", "mesh_runs"}},
+    {FEATURE_MESH_NORMALS, {"mesh_normal", "mesh_normals", NULL}},
+    {FEATURE_MESH_UVS, {"mesh_uv", "mesh_uvs", NULL}},
     {FEATURE_UV, {"surface_uv", "hit.u", NULL}},
     {FEATURE_CHECKER, {"hit->u_whole", NULL, NULL}},
     {FEATURE_CHECKER3D, {"object_point", "inset", NULL}},
@@ -41,7 +44,7 @@ static const struct {
     {FEATURE_DIRECTIONAL, {"travel", NULL, NULL}},
     {FEATURE_SPOT, {"versine_outer", "soft", NULL}},
     {FEATURE_SHADOWS, {"intersect_shadow", "shadow_batch", "SHADOW_ORG"}},
-    {FEATURE_TRANSMITTANCE, {"transmit_shadows", "last_primitive", "tmin_after_last"}},
+    {FEATURE_TRANSMITTANCE, {"transmit_shadows", "last_primitive", "follows_last"}},
     {FEATURE_SPECULAR, {"MATERIAL_SHININESS", "MATERIAL_SPECULAR", NULL}},
     {FEATURE_PHONG, {"lobe_phong", NULL, NULL}},
     {FEATURE_BLINN, {"lobe_blinn", NULL, NULL}},
@@ -58,6 +61,10 @@ static const struct {
 
 #define BIT(name) ((FeatureSet)1 << FEATURE_##name)
 
+static const FeatureSet shapes = BIT(SPHERE) | BIT(GIANT_SPHERE) | BIT(ELLIPSOID) | BIT(PLANE) | BIT(BOX) |
+                                 BIT(TETRAHEDRON) | BIT(DISK) | BIT(CYLINDER) | BIT(CONE) | BIT(TORUS) |
+                                 BIT(TRIANGLE);
+
 // Arrays among the arguments of the kernel, and features any of which asks for them.
 static const struct {
     const char *name;
@@ -66,6 +73,8 @@ static const struct {
     {"primitives", BIT(SURFACES)}, {"infos", BIT(SURFACES)},  {"materials", BIT(SURFACES)},
     {"nodes", BIT(BVH)},           {"lights", BIT(LIGHTS)},   {"textures", BIT(CHECKER) | BIT(CHECKER3D)},
     {"frames", BIT(CHECKER3D)},    {"film_low", BIT(SAMPLES)}, {"extras", BIT(TRIANGLE_EXTRA)},
+    {"blocks", BIT(MESH)},         {"mesh_runs", BIT(MESH)},  {"mesh_normals", BIT(MESH_NORMALS)},
+    {"mesh_uvs", BIT(MESH_UVS)},   {"mesh_indices", BIT(MESH_NORMALS) | BIT(MESH_UVS)},
 };
 
 typedef struct Function {
@@ -279,9 +288,15 @@ static void test_words(void **state)
         }
     }
     assert_true(listed == feature_bit(FEATURE_COUNT) - 1); // a new feature needs its words here
-    for (u32 i = 0; i < PROGRAMS; i++) // lights that shine from somewhere
+    for (u32 i = 0; i < PROGRAMS; i++) {
+        // Lights that shine from somewhere; shapes that are not meshes.
         assert_true((find_word(programs[i].reached, "attenuation") != NULL) ==
                     ((programs[i].features & (BIT(POINT) | BIT(SPOT))) != 0));
+        assert_true((find_word(programs[i].reached, "test_primitive") != NULL) ==
+                    ((programs[i].features & shapes) != 0));
+        assert_true((find_word(programs[i].reached, "surface_primitive") != NULL) ==
+                    ((programs[i].features & shapes) != 0));
+    }
 }
 
 static void test_arguments(void **state)

@@ -75,7 +75,14 @@ static const char scene_mirror[] =
     "torus { center P(0.5 0.5 -1) axis D(0.5 1 0.25) major ~0.75 minor ~0.25 material a }\n"
     "object pair { sphere { center L(0 0.25 0) radius ~0.25 material glass }\n"
     "    box { center L(0 0 0) size ~0.5 } }\n"
-    "instance pair { scale 1 2 0.5 rotate A(1 1 0) 30 translate P(1 1 2.5) material b }\n";
+    "instance pair { scale 1 2 0.5 rotate A(1 1 0) 30 translate P(1 1 2.5) material b }\n"
+    // What a file holds is mirrored by the first scale.
+    "mesh { file \"vase.obj\" scale L(0.75 0.75 0.75) rotate A(0.25 1 0.5) 35 translate P(-1.25 0.25 3)\n"
+    "    material a }\n"
+    "mesh { file \"gem.obj\" smooth on scale L(0.5 0.5 0.5) translate P(2 0.5 2.75) material glass }\n"
+    "object stones { mesh { file \"gem.obj\" scale L(0.5 0.5 0.5) translate L(0.25 0.25 0) } }\n"
+    "instance stones { scale 0.75 1 0.5 rotate A(1 1 0) 30 translate P(-2.25 1.75 1) }\n"
+    "instance stones { scale -0.75 1 0.5 rotate A(0 0 1) 50 translate P(1.25 2 0.5) material b }\n";
 
 // Render space begins at the camera. Where coordinates stay exact in double, nothing at all is lost a million
 // units away; where they do not, the numbers are those of the scene up to a rounding of double. (The cells of

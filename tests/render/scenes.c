@@ -18,6 +18,7 @@ const char scene_glass[] =
     "    transmit 0.875 1 0.9375 fresnel on }\n"
     "material veil phong { diffuse 0.125 0.25 0.5 transmit 0.5 0.625 0.75 reflect 0.25 ior 1.25 }\n"
     "material lamp phong { emission 0.5 0.25 0.125 diffuse 0.25 }\n"
+    "material tint phong { diffuse bands transmit 0.25 0.5 0.125 ior 1 }\n"
     "sphere { center P(0 -6400000 0) radius ~6400000 material ground }\n"
     "plane { point P(0 0 -4) normal D(0 0 1) material wall }\n"
     "sphere { center P(-1.5 1 0) radius ~1 material ball }\n"
@@ -33,7 +34,17 @@ const char scene_glass[] =
     "    triangle { vertices L(-1 0.25 0.5) L(1 0.25 0.5) L(0 1 0.75) uvs 0 0 1 0 0.5 1 material ball }\n"
     "}\n"
     "instance pair { rotate A(0 1 0) 30 translate P(0 0 2.5) material lamp }\n"
-    "instance pair { scale 0.5 1.5 0.75 rotate A(0.25 1 0) 70 translate P(-0.5 2 -1) }\n";
+    "instance pair { scale 0.5 1.5 0.75 rotate A(0.25 1 0) 70 translate P(-0.5 2 -1) }\n"
+    "mesh { file \"vase.obj\" scale ~0.75 rotate A(0.5 0 1) 15 translate P(1.875 0.125 2.75)\n"
+    "    material ball }\n"
+    "mesh { file \"gem.obj\" scale ~0.5 rotate A(1 0 0.25) 20 translate P(-1.5 0.75 3) material glass }\n"
+    "object jewels {\n"
+    "    mesh { file \"gem.obj\" smooth on scale ~0.5 translate L(-0.5 0.25 0) }\n"
+    "    mesh { file \"vase.obj\" smooth off scale ~0.375 translate L(0.375 0 0) material tint }\n"
+    "    sphere { center L(0 0.75 0) radius ~0.25 }\n"
+    "}\n"
+    "instance jewels { rotate A(0 1 0) 20 translate P(-0.25 0 3.75) }\n"
+    "instance jewels { scale 1 1.5 0.5 rotate A(0 1 0) 200 translate P(2.5 1.5 0.5) material veil }\n";
 
 const char scene_toys[] =
     "image { size 90 70 }\n"
@@ -45,13 +56,17 @@ const char scene_toys[] =
     "texture grain checker3d { colors 0.75 0.25 scale ^2 }\n"
     "material wood blinn_phong { diffuse grain specular 0.5 shininess 40 }\n"
     "material mirror phong { diffuse 0.25 reflect 0.5 }\n"
+    "texture knit checker3d { colors 0.875 0.125 scale 5 }\n"
+    "material wool phong { diffuse knit }\n"
     "disk { center P(0 0 0) normal D(0 1 0) radius ~3 material mirror }\n"
     "tetrahedron { center P(-1.5 0.625 0) size ~1.5 material wood }\n"
     "cylinder { base P(1.5 0 -0.5) top P(1.5 1.5 -0.5) radius ~0.5 caps off material wood }\n"
     "cone { base P(0 0 1.5) top P(0.25 1.25 1.5) radius ~0.625 top_radius ~0.125 material wood }\n"
     "torus { center P(0 1 -1.5) axis D(0.25 1 0.5) major ~0.75 minor ~0.25 material wood }\n"
     "cone { base L(0 0 0) top L(0 1 0) radius ~0.5 scale 1 1.5 0.5 rotate A(0.5 0 1) 25\n"
-    "    translate P(-2 0.25 1.25) material mirror }\n";
+    "    translate P(-2 0.25 1.25) material mirror }\n"
+    "mesh { file \"vase.obj\" scale ~1.25 rotate A(0 1 0) 25 translate P(1.25 0 1.25) material wool }\n"
+    "mesh { file \"gem.obj\" scale ~0.625 translate P(-0.75 0.625 2.25) material mirror }\n";
 
 // A marked triple at *text, behind its letter and parenthesis; moves *text behind it.
 static Vec3 read_triple(const char **text)

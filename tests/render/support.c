@@ -28,7 +28,8 @@ Layout *layout_of(const char *text)
     Arena *arena = arena_create();
     Diagnostics *diagnostics = diagnostics_create();
     Error error = {0};
-    Scene *scene = scene_parse_text("scene", text, strlen(text), arena, diagnostics, &error);
+    Scene *scene = scene_parse_text(CLRT_SOURCE "/tests/render/meshes/scene", text, strlen(text), arena,
+                                    diagnostics, &error);
     const bool loaded = scene && diagnostics_error_count(diagnostics) == 0 &&
                         assets_load(scene, arena, diagnostics, &error);
     if (!loaded || diagnostics_error_count(diagnostics)) {

@@ -24,7 +24,8 @@ enum { TEST_SKIP = 77 };
 // reason on standard output, where there is none: the test then returns TEST_SKIP.
 Device *test_device_open(u32 threads);
 
-// The layout of a scene without errors; a scene that has some fails the running test.
+// The layout of a scene without errors; a scene that has some fails the running test. Files that it names
+// without a folder are those of meshes/.
 Layout *layout_of(const char *text);
 
 // How a picture is made where that shall not be seen in it. Zeros are the defaults.
