@@ -93,6 +93,26 @@ static i32 write_leaf(const Collapse *collapse, const BinaryNode *leaf, Places p
     return (i32)~((collapse->input->first_block + places.block) << 1 | 1);
 }
 
+static f32 half_area(const Box *box)
+{
+    const f32 x = box->max[0] - box->min[0], y = box->max[1] - box->min[1], z = box->max[2] - box->min[2];
+    return x * y + y * z + z * x;
+}
+
+// Largest first: the order in which rays that only ask whether anything is in their way try the children (Nah,
+// Manocha, "SATO: surface area traversal order for shadow ray tracing", 2014).
+static void sort_slots(BinaryNode *children[BVH_WIDTH], u32 count)
+{
+    for (u32 i = 1; i < count; i++) {
+        BinaryNode *child = children[i];
+        const f32 area = half_area(&child->box);
+        u32 place = i;
+        for (; place > 0 && area > half_area(&children[place - 1]->box); place--)
+            children[place] = children[place - 1];
+        children[place] = child;
+    }
+}
+
 // Writes the wide node of root and all below it, depth first: the numbers follow from the tree alone.
 static void write_nodes(const Collapse *collapse, BinaryNode *root, Places places)
 {
@@ -100,6 +120,7 @@ static void write_nodes(const Collapse *collapse, BinaryNode *root, Places place
     BinaryNode *children[BVH_WIDTH];
     u32 count = 0;
     gather_slots(root, BVH_WIDTH, children, &count);
+    sort_slots(children, count);
     BvhNode *node = &collapse->bvh->nodes[places.node++];
     for (u32 slot = 0; slot < count; slot++) {
         BinaryNode *child = children[slot];

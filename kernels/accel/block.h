@@ -17,24 +17,23 @@ typedef struct {
     int axis_x[BATCH], axis_y[BATCH], axis_z[BATCH];
 } BatchShear;
 
-static inline void prepare_shear(const BatchRays *rays, BatchShear *s)
+// For the rays k .. k + LANES - 1.
+static inline void prepare_shear(const BatchRays *rays, int k, BatchShear *s)
 {
-    for (int k = 0; k < BATCH; k += LANES) {
-        const v3 org = v3_make(VF_LOAD(&rays->org_x[k]), VF_LOAD(&rays->org_y[k]), VF_LOAD(&rays->org_z[k]));
-        const v3 dir = v3_make(VF_LOAD(&rays->dir_x[k]), VF_LOAD(&rays->dir_y[k]), VF_LOAD(&rays->dir_z[k]));
-        const RayShear shear = shear_make(dir);
-        const v3 o = shear_permute(&shear, org);
-        VF_STORE(o.x, &s->org_x[k]);
-        VF_STORE(o.y, &s->org_y[k]);
-        VF_STORE(o.z, &s->org_z[k]);
-        VF_STORE(shear.shear_x, &s->shear_x[k]);
-        VF_STORE(shear.shear_y, &s->shear_y[k]);
-        VF_STORE(shear.shear_z, &s->shear_z[k]);
-        const vi x = (vi)(0), y = (vi)(BLOCK_WIDTH), z = (vi)(2 * BLOCK_WIDTH);
-        VI_STORE(shear.z_is_x ? y : shear.z_is_y ? z : x, &s->axis_x[k]);
-        VI_STORE(shear.z_is_x ? z : shear.z_is_y ? x : y, &s->axis_y[k]);
-        VI_STORE(shear.z_is_x ? x : shear.z_is_y ? y : z, &s->axis_z[k]);
-    }
+    const v3 org = v3_make(VF_LOAD(&rays->org_x[k]), VF_LOAD(&rays->org_y[k]), VF_LOAD(&rays->org_z[k]));
+    const v3 dir = v3_make(VF_LOAD(&rays->dir_x[k]), VF_LOAD(&rays->dir_y[k]), VF_LOAD(&rays->dir_z[k]));
+    const RayShear shear = shear_make(dir);
+    const v3 o = shear_permute(&shear, org);
+    const vi x = (vi)(0), y = (vi)(BLOCK_WIDTH), z = (vi)(2 * BLOCK_WIDTH);
+    VF_STORE(o.x, &s->org_x[k]);
+    VF_STORE(o.y, &s->org_y[k]);
+    VF_STORE(o.z, &s->org_z[k]);
+    VF_STORE(shear.shear_x, &s->shear_x[k]);
+    VF_STORE(shear.shear_y, &s->shear_y[k]);
+    VF_STORE(shear.shear_z, &s->shear_z[k]);
+    VI_STORE(shear.z_is_x ? y : shear.z_is_y ? z : x, &s->axis_x[k]);
+    VI_STORE(shear.z_is_x ? z : shear.z_is_y ? x : y, &s->axis_y[k]);
+    VI_STORE(shear.z_is_x ? x : shear.z_is_y ? y : z, &s->axis_z[k]);
 }
 
 // t > 0 of the face at `slot` for ray k: takes it over where it comes first. True where it does.

@@ -62,21 +62,20 @@ static inline void prepare_axis(const real *org, vf shift, vf dir, vf smallest, 
     VU_STORE(inverse < (vf)(0.0f) ? (vu)(lower + 96u) : (vu)(lower), first);
 }
 
-static inline void prepare_slabs(const BatchRays *rays, BatchSlabs *s)
+// For the rays k .. k + LANES - 1.
+static inline void prepare_slabs(const BatchRays *rays, int k, BatchSlabs *s)
 {
-    for (int k = 0; k < BATCH; k += LANES) {
-        const v3 org = v3_make(VF_LOAD(&rays->org_x[k]), VF_LOAD(&rays->org_y[k]), VF_LOAD(&rays->org_z[k]));
-        const v3 dir = v3_make(VF_LOAD(&rays->dir_x[k]), VF_LOAD(&rays->dir_y[k]), VF_LOAD(&rays->dir_z[k]));
-        const v3 o = v3_abs(org), d = v3_abs(dir);
-        const vf shift = vf_max(o.x, vf_max(o.y, o.z)) * SHIFT;
-        const vf smallest = vf_max(d.x, vf_max(d.y, d.z)) * SMALLEST_SLOPE;
-        prepare_axis(&rays->org_x[k], shift, dir.x, smallest, &s->inv_x[k], &s->near_x[k], &s->far_x[k],
-                     &s->first_x[k], 0);
-        prepare_axis(&rays->org_y[k], shift, dir.y, smallest, &s->inv_y[k], &s->near_y[k], &s->far_y[k],
-                     &s->first_y[k], 32);
-        prepare_axis(&rays->org_z[k], shift, dir.z, smallest, &s->inv_z[k], &s->near_z[k], &s->far_z[k],
-                     &s->first_z[k], 64);
-    }
+    const v3 org = v3_make(VF_LOAD(&rays->org_x[k]), VF_LOAD(&rays->org_y[k]), VF_LOAD(&rays->org_z[k]));
+    const v3 dir = v3_make(VF_LOAD(&rays->dir_x[k]), VF_LOAD(&rays->dir_y[k]), VF_LOAD(&rays->dir_z[k]));
+    const v3 o = v3_abs(org), d = v3_abs(dir);
+    const vf shift = vf_max(o.x, vf_max(o.y, o.z)) * SHIFT;
+    const vf smallest = vf_max(d.x, vf_max(d.y, d.z)) * SMALLEST_SLOPE;
+    prepare_axis(&rays->org_x[k], shift, dir.x, smallest, &s->inv_x[k], &s->near_x[k], &s->far_x[k],
+                 &s->first_x[k], 0);
+    prepare_axis(&rays->org_y[k], shift, dir.y, smallest, &s->inv_y[k], &s->near_y[k], &s->far_y[k],
+                 &s->first_y[k], 32);
+    prepare_axis(&rays->org_z[k], shift, dir.z, smallest, &s->inv_z[k], &s->near_z[k], &s->far_z[k],
+                 &s->first_z[k], 64);
 }
 
 // Eight planes of a node, those that start `offset` bytes into it.
@@ -149,6 +148,7 @@ static inline void bound_axis(const real *inv, const real *near, const real *far
     b->usable = b->usable && (b->inv_least[axis] < 0.0f) == (b->inv_most[axis] < 0.0f);
 }
 
+// Of the rays of mask; not usable where they run into several octants.
 static inline void bound_packet(const BatchSlabs *s, uint mask, PacketBounds *b)
 {
     b->usable = true;

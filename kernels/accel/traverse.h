@@ -53,9 +53,15 @@ static inline uint valid_rays(const BatchRays *rays, uint mask)
 
 OUTLINE void prepare_space(const BatchRays *rays, uint mask, BatchSpace *space)
 {
-    prepare_slabs(rays, &space->slabs);
+    for (int k = 0; k < BATCH; k += LANES) {
+        if (!(mask >> k & ((1u << LANES) - 1u)))
+            continue;
+        prepare_slabs(rays, k, &space->slabs);
 #if HAS_MESH
-    prepare_shear(rays, &space->shear);
+        prepare_shear(rays, k, &space->shear);
+#endif
+    }
+#if HAS_MESH
     uint other = 0;
     const int axis = space->shear.axis_z[lowest_bit(mask)];
     for (int k = 0; k < BATCH; k += LANES)
@@ -63,7 +69,9 @@ OUTLINE void prepare_space(const BatchRays *rays, uint mask, BatchSpace *space)
     space->one_axis = (other & mask) == 0;
 #endif
 #if LANES > 1
-    bound_packet(&space->slabs, mask, &space->bounds);
+    space->bounds.usable = popcount(mask) >= PACKET_RAYS;
+    if (space->bounds.usable)
+        bound_packet(&space->slabs, mask, &space->bounds);
 #endif
 }
 
@@ -86,7 +94,18 @@ static inline void prefetch_child(const Hierarchy *scene, int child)
 #endif
 }
 
-// Puts a child on the stack, above those that are farther and were pushed after `bottom`.
+// Children that only have to be tried: in the order of their slots, which have the largest boxes first.
+#define UNSORTED 0x7fffffff
+
+// The next of the slots in bits: the first one, or, to be pushed without sorting, the last.
+static inline int next_slot(uint *bits, bool any_hit)
+{
+    const int slot = any_hit ? 31 - (int)clz(*bits) : lowest_bit(*bits);
+    *bits &= ~(1u << slot);
+    return slot;
+}
+
+// Puts a child on the stack, above those that are farther and stand after `bottom`.
 static inline void push_sorted(const Hierarchy *scene, Stack *stack, int bottom, int node, uint mask, real near)
 {
     prefetch_child(scene, node);
@@ -112,26 +131,26 @@ static inline bool pop(Stack *stack, uint alive, Visit *visit)
     return false;
 }
 
-// Pushes the children of a node, `enters` and `masks` by slot, of which `reached` are meant; the nearest is
-// on top.
+// Pushes the children of a node, `enters` and `masks` by slot, of which `reached` are meant; on top is the
+// nearest or, where any hit will do, the first.
 static inline void push_children(const Hierarchy *scene, global const BvhNode *node, uint reached, const Int8 *masks, const Float8 *enters,
-                                 Stack *stack)
+                                 Stack *stack, bool any_hit)
 {
-    const int bottom = stack->size;
-    for (; reached; reached &= reached - 1) {
-        const int slot = lowest_bit(reached);
+    const int bottom = any_hit ? UNSORTED : stack->size;
+    while (reached) {
+        const int slot = next_slot(&reached, any_hit);
         push_sorted(scene, stack, bottom, node->child[slot], (uint)masks->s[slot], enters->s[slot]);
     }
 }
 
 #if LANES > 1
 static inline void descend_packet(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, const BatchHits *hits,
-                                  uint mask, Stack *stack)
+                                  uint mask, Stack *stack, bool any_hit)
 {
     Float8 enters;
-    const int bottom = stack->size;
-    for (uint some = test_boxes_bounds(node, &space->bounds, &enters.v); some; some &= some - 1) {
-        const int slot = lowest_bit(some);
+    const int bottom = any_hit ? UNSORTED : stack->size;
+    for (uint some = test_boxes_bounds(node, &space->bounds, &enters.v); some;) {
+        const int slot = next_slot(&some, any_hit);
         const uint reached = test_box_packet(node, slot, &space->slabs, &space->bounds, hits->tfar, mask);
         if (reached)
             push_sorted(scene, stack, bottom, node->child[slot], reached, enters.s[slot]);
@@ -141,7 +160,7 @@ static inline void descend_packet(const Hierarchy *scene, global const BvhNode *
 
 // One ray after the other: what it costs goes with their number.
 static inline void descend_rays(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, const BatchHits *hits,
-                                uint mask, Stack *stack)
+                                uint mask, Stack *stack, bool any_hit)
 {
     Int8 masks;
     Float8 enters;
@@ -155,20 +174,20 @@ static inline void descend_rays(const Hierarchy *scene, global const BvhNode *no
         const float8 seen = hit ? near : (float8)(INFINITY);
         enters.v = seen < enters.v ? seen : enters.v;
     }
-    push_children(scene, node, sign_bits8(masks.v != (int8)(0)), &masks, &enters, stack);
+    push_children(scene, node, sign_bits8(masks.v != (int8)(0)), &masks, &enters, stack, any_hit);
 }
 
 // Pushes the children of a node that rays of mask reach.
 static inline void descend(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, BatchHits *hits, uint mask,
-                           Stack *stack)
+                           Stack *stack, bool any_hit)
 {
     COUNT_NODE(hits, popcount(mask));
 #if LANES > 1
     if (space->bounds.usable && popcount(mask) >= PACKET_RAYS)
-        descend_packet(scene, node, space, hits, mask, stack);
+        descend_packet(scene, node, space, hits, mask, stack, any_hit);
     else
 #endif
-        descend_rays(scene, node, space, hits, mask, stack);
+        descend_rays(scene, node, space, hits, mask, stack, any_hit);
 }
 
 // What the rays of mask meet in a leaf; returns those that it stops.
@@ -206,9 +225,9 @@ static inline uint walk(const Hierarchy *scene, const BatchRays *rays, const Bat
             Float8 enters;
             COUNT_NODE(hits, 1);
             uint reached = sign_bits8(test_boxes(node, &space->slabs, 0, hits->tfar[0], &enters.v));
-            const int bottom = size;
-            for (; reached; reached &= reached - 1) {
-                const int slot = lowest_bit(reached);
+            const int bottom = any_hit ? UNSORTED : size;
+            while (reached) {
+                const int slot = next_slot(&reached, any_hit);
                 const real near = enters.s[slot];
                 int at = size++;
                 prefetch_child(scene, node->child[slot]);
@@ -244,7 +263,7 @@ static inline uint walk(const Hierarchy *scene, const BatchRays *rays, const Bat
     stack.size = 0;
     do {
         if (visit.node >= 0) {
-            descend(scene, &scene->nodes[visit.node], space, hits, visit.mask, &stack);
+            descend(scene, &scene->nodes[visit.node], space, hits, visit.mask, &stack, any_hit);
         } else {
             const uint found = test_leaf(scene, rays, space, hits, visit, instance, opaque_only);
             if (any_hit)
@@ -270,6 +289,8 @@ OUTLINE uint traverse_object(const Hierarchy *scene, const BatchRays *rays, Batc
 static inline void enter_instance(const PrimitiveLanes *p, const BatchRays *rays, uint mask, BatchRays *inner)
 {
     for (int first = 0; first < BATCH; first += LANES) {
+        if (!(mask >> first & ((1u << LANES) - 1u)))
+            continue;
         const v3 org = v3_make(VF_LOAD(&rays->org_x[first]), VF_LOAD(&rays->org_y[first]),
                                VF_LOAD(&rays->org_z[first]));
         const v3 dir = v3_make(VF_LOAD(&rays->dir_x[first]), VF_LOAD(&rays->dir_y[first]),
@@ -308,7 +329,7 @@ static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays,
     stack.size = 0;
     do {
         if (visit.node >= 0) {
-            descend(scene, &scene->nodes[visit.node], &space, hits, visit.mask, &stack);
+            descend(scene, &scene->nodes[visit.node], &space, hits, visit.mask, &stack, any_hit);
             continue;
         }
         const uint leaf = ~(uint)visit.node;

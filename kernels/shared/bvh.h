@@ -10,7 +10,8 @@
 #define BVH_MAX_DEPTH 48
 
 // Lower and upper planes, in units of the space that the hierarchy lives in; an empty slot has
-// lower +infinity and upper -infinity, which no ray hits. Filled slots come first. child >= 0: index of a
+// lower +infinity and upper -infinity, which no ray hits. Filled slots come first,
+// those of large boxes before small ones. child >= 0: index of a
 // node; < 0: a leaf, ~(index << 1) of one primitive, or ~(index << 1 | 1) of one TriangleBlock.
 typedef struct BvhNode {
     f32 lower_x[BVH_WIDTH];

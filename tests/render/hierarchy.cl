@@ -1,5 +1,5 @@
 // For hierarchy_test.c: rays searched for their hits by the traversal, or without it by one test of every
-// primitive after the other, and rays that start on the surfaces that were hit.
+// primitive and block of triangles after the other, and rays that start on the surfaces that were hit.
 #include "base/features.h"
 
 #include "stages/hit.h"
@@ -14,32 +14,52 @@ static inline v3 load3(global const real *from, uint n, uint column, uint at)
                    VF_LOAD(from + (column + 2) * n + at));
 }
 
-// All primitives that rays can meet, each with the instance that it is seen through.
+// All primitives, and the first faces of all blocks, that rays can meet, each with the instance that it is
+// seen through. Blocks are tested in the one way that does not go by the rays around.
 static uint search_all(const Hierarchy *scene, global const int *pairs, uint pair_count,
                        const BatchRays *rays, BatchHits *hits, uint mask, bool any_hit, bool opaque_only)
 {
     BatchRays inner;
+    BatchShear shear, inner_shear;
     int entered = NO_HIT;
+    prepare_shear(rays, &shear);
     for (uint i = 0; i < pair_count && mask; i++) {
         const int primitive = pairs[2 * i], instance = pairs[2 * i + 1];
-        if (opaque_only && !(scene->primitives[primitive].kind & PRIMITIVE_OPAQUE))
-            continue;
         if (instance >= 0 && instance != entered) {
             const PrimitiveLanes map = primitive_splat(&scene->primitives[instance]);
             enter_instance(&map, rays, batch_mask(BATCH), &inner);
+            prepare_shear(&inner, &inner_shear);
             entered = instance;
         }
-        const BatchRays *seen = instance < 0 ? rays : &inner;
-        const uint found = test_primitive(scene, seen, hits, mask, primitive, instance);
+        uint found = 0;
+        if (primitive & HIT_MESH)
+            found = test_block_by_ray(scene, instance < 0 ? &shear : &inner_shear, hits, mask,
+                                      (primitive & (HIT_MESH - 1)) / BLOCK_WIDTH, instance, opaque_only);
+        else if (!opaque_only || (scene->primitives[primitive].kind & PRIMITIVE_OPAQUE))
+            found = test_primitive(scene, instance < 0 ? rays : &inner, hits, mask, primitive, instance);
         if (any_hit)
             mask &= ~found;
     }
     return mask;
 }
 
+static Hierarchy scene_make(global const Primitive *primitives, global const PrimitiveInfo *infos,
+                            global const TriangleBlock *blocks, global const MeshRun *mesh_runs,
+                            uint mesh_run_count)
+{
+    Hierarchy scene;
+    scene.primitives = primitives;
+    scene.infos = infos;
+    scene.blocks = blocks;
+    scene.mesh_runs = mesh_runs;
+    scene.mesh_run_count = mesh_run_count;
+    return scene;
+}
+
 // n: a multiple of BATCH. pair_count 0: by the hierarchy. Step by step each ray goes on behind what it has
-// met, as shadow rays do. found: primitive and instance of each step and ray.
+// met, as shadow rays do. found: primitive or face and instance of each step and ray.
 kernel void search(global const Primitive *primitives, global const PrimitiveInfo *infos,
+                   global const TriangleBlock *blocks, global const MeshRun *mesh_runs, uint mesh_run_count,
                    global const BvhNode *nodes, uint plane_count, uint root, global const int *pairs,
                    uint pair_count, global const real *rays_in, global const int *selves, uint n, uint steps,
                    uint any_hit, uint opaque_only, global real *t, global int *found)
@@ -47,9 +67,7 @@ kernel void search(global const Primitive *primitives, global const PrimitiveInf
     const uint begin = (uint)get_global_id(0) * BATCH;
     if (begin >= n)
         return;
-    Hierarchy scene;
-    scene.primitives = primitives;
-    scene.infos = infos;
+    Hierarchy scene = scene_make(primitives, infos, blocks, mesh_runs, mesh_run_count);
     scene.nodes = nodes;
     scene.plane_count = plane_count;
     scene.root = root;
@@ -89,6 +107,8 @@ kernel void search(global const Primitive *primitives, global const PrimitiveInf
 // Turns each ray that has met something (t and found of its first step) into one that starts there in the
 // direction given, to either side of the surface, as the rays that follow a hit do.
 kernel void bounce(global const Primitive *primitives, global const PrimitiveInfo *infos,
+                   global const TriangleBlock *blocks, global const MeshRun *mesh_runs, uint mesh_run_count,
+                   global const int *mesh_indices, global const real *mesh_normals,
                    global const MaterialRecord *materials, global const TriangleExtra *extras, uint n,
                    global const real *t, global const int *found, global const real *dirs,
                    global real *rays, global int *selves)
@@ -96,10 +116,10 @@ kernel void bounce(global const Primitive *primitives, global const PrimitiveInf
     const uint begin = (uint)get_global_id(0) * LANES;
     if (begin >= n)
         return;
-    Hierarchy scene;
+    const Hierarchy scene = scene_make(primitives, infos, blocks, mesh_runs, mesh_run_count);
     Shading shading;
-    scene.primitives = primitives;
-    scene.infos = infos;
+    shading.mesh_indices = mesh_indices;
+    shading.mesh_normals = mesh_normals;
     shading.materials = materials;
     shading.extras = extras;
     LanesI primitive, instance;

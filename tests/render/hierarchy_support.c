@@ -19,7 +19,8 @@ Search search_create(Device *device, u32 lanes, u32 batch)
     if (device_info(device)->exact_divide)
         text_append(&options, " -cl-fp32-correctly-rounded-divide-sqrt");
     for (Feature f = 0; f < FEATURE_COUNT; f++) {
-        const bool textures = f == FEATURE_UV || f == FEATURE_CHECKER || f == FEATURE_CHECKER3D;
+        const bool textures = f == FEATURE_UV || f == FEATURE_CHECKER || f == FEATURE_CHECKER3D ||
+                              f == FEATURE_MESH_UVS;
         text_append(&options, " -DHAS_%s=%d", feature_name(f), !textures);
     }
     search.program = program_create(device, search.source, strlen(search.source), options, &error);
@@ -40,40 +41,80 @@ void search_destroy(Search *search)
     free(search->source);
 }
 
-// Adds the primitives of the leaves below node, met through instance.
-static void list_leaves(const Layout *layout, u32 node, i32 instance, i32 *pairs, u32 *count)
+// ---- what rays can meet -----------------------------------------------------------------------
+
+static void list_add(Space *s, i32 met, i32 instance)
+{
+    if ((s->pair_count & (s->pair_count - 1)) == 0) {
+        s->list = realloc(s->list, 2 * (s->pair_count + (size_t)1) * sizeof *s->list);
+        assert_non_null(s->list);
+    }
+    s->list[s->pair_count][0] = met;
+    s->list[s->pair_count++][1] = instance;
+}
+
+static void list_leaves(Space *s, u32 node, i32 instance);
+
+static void list_leaf(Space *s, u32 leaf, i32 instance)
+{
+    const Layout *layout = s->layout;
+    const u32 index = leaf >> 1;
+    if (leaf & 1) {
+        assert_true(index < layout->block_count && layout->blocks[index].face[0] != NO_INDEX);
+        list_add(s, FACE | (i32)(index * BLOCK_WIDTH), instance);
+        for (u32 lane = 0; lane < BLOCK_WIDTH; lane++)
+            s->target_count += layout->blocks[index].face[lane] != NO_INDEX;
+        return;
+    }
+    const Primitive *primitive = &layout->primitives[index];
+    if ((primitive->kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE) {
+        u32 root;
+        memcpy(&root, &primitive->p0, sizeof root);
+        list_leaves(s, root, (i32)index);
+        return;
+    }
+    list_add(s, (i32)index, instance);
+    s->target_count++;
+}
+
+// Adds what is in the leaves below node, met through instance.
+static void list_leaves(Space *s, u32 node, i32 instance)
 {
     for (int slot = 0; slot < BVH_WIDTH; slot++) {
-        const BvhNode *n = &layout->nodes[node];
+        const BvhNode *n = &s->layout->nodes[node];
         if (!(n->lower_x[slot] <= n->upper_x[slot]))
             continue;
-        if (n->child[slot] >= 0) {
-            list_leaves(layout, (u32)n->child[slot], instance, pairs, count);
-            continue;
-        }
-        const u32 leaf = ~(u32)n->child[slot];
-        for (u32 i = leaf >> 4; i < (leaf >> 4) + (leaf & 15u); i++) {
-            const Primitive *primitive = &layout->primitives[i];
-            if ((primitive->kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE) {
-                u32 root;
-                memcpy(&root, &primitive->p0, sizeof root);
-                list_leaves(layout, root, (i32)i, pairs, count);
-                continue;
-            }
-            assert_true(*count < 4096);
-            pairs[2 * *count] = (i32)i;
-            pairs[2 * (*count)++ + 1] = instance;
-        }
+        if (n->child[slot] >= 0)
+            list_leaves(s, (u32)n->child[slot], instance);
+        else
+            list_leaf(s, ~(u32)n->child[slot], instance);
     }
 }
 
-static Buffer *filled(Device *device, const char *name, const void *data, u64 bytes)
+u64 order_of(const Layout *layout, i32 met)
 {
+    if (!(met & FACE))
+        return (u64)layout->infos[met].order_high << 32 | layout->infos[met].order_low;
+    const u32 slot = (u32)(met & (FACE - 1));
+    const u32 face = layout->blocks[slot / BLOCK_WIDTH].face[slot % BLOCK_WIDTH] & ~FACE_TRANSMITS;
+    u32 run = 0;
+    while (run + 1 < layout->mesh_run_count && layout->mesh_runs[run + 1].first <= face)
+        run++;
+    const MeshRun *r = &layout->mesh_runs[run];
+    return ((u64)r->order_high << 32 | r->order_low) + (face - r->first);
+}
+
+// ---- on the device ----------------------------------------------------------------------------
+
+// Of the data; where there is none, of one record of zeros, since the programs have all features.
+static Buffer *filled(Device *device, const char *name, const void *data, u64 count, u64 size)
+{
+    static const u8 nothing[sizeof(TriangleBlock)] = {0};
     Error error = {0};
-    Buffer *buffer = buffer_create(device, name, bytes, &error);
+    assert_true(size <= sizeof nothing);
+    Buffer *buffer = buffer_create(device, name, (count ? count : 1) * size, &error);
     must(buffer != NULL, &error);
-    if (bytes)
-        must(buffer_upload(buffer, 0, data, bytes, &error), &error);
+    must(buffer_upload(buffer, 0, count ? data : nothing, (count ? count : 1) * size, &error), &error);
     return buffer;
 }
 
@@ -82,22 +123,23 @@ Space space_create(Device *device, const char *scene)
     Error error = {0};
     Space s = {.layout = layout_of(scene)};
     const Layout *l = s.layout;
-    i32 *pairs = malloc(2 * 4096 * sizeof *pairs);
-    assert_non_null(pairs);
-    for (u32 i = 0; i < l->plane_count; i++) {
-        pairs[2 * s.pair_count] = (i32)i;
-        pairs[2 * s.pair_count++ + 1] = -1;
-    }
+    for (u32 i = 0; i < l->plane_count; i++)
+        list_add(&s, (i32)i, -1);
     if (l->root != NO_INDEX)
-        list_leaves(l, l->root, -1, pairs, &s.pair_count);
+        list_leaves(&s, l->root, -1);
     assert_true(s.pair_count > 0);
-    s.pairs = filled(device, "pairs", pairs, 2 * s.pair_count * sizeof *pairs);
-    free(pairs);
-    s.primitives = filled(device, "primitives", l->primitives, l->primitive_count * sizeof *l->primitives);
-    s.infos = filled(device, "infos", l->infos, l->primitive_count * sizeof *l->infos);
-    s.nodes = filled(device, "nodes", l->nodes, l->node_count * sizeof *l->nodes);
-    s.materials = filled(device, "materials", l->materials, l->material_count * sizeof *l->materials);
-    s.extras = filled(device, "extras", l->extras, l->extra_count * sizeof *l->extras);
+    s.pairs = filled(device, "pairs", s.list, s.pair_count, sizeof *s.list);
+    s.primitives = filled(device, "primitives", l->primitives, l->primitive_count, sizeof *l->primitives);
+    s.infos = filled(device, "infos", l->infos, l->primitive_count, sizeof *l->infos);
+    s.nodes = filled(device, "nodes", l->nodes, l->node_count, sizeof *l->nodes);
+    s.materials = filled(device, "materials", l->materials, l->material_count, sizeof *l->materials);
+    s.extras = filled(device, "extras", l->extras, l->extra_count, sizeof *l->extras);
+    s.blocks = filled(device, "blocks", l->blocks, l->block_count, sizeof *l->blocks);
+    s.mesh_runs = filled(device, "mesh_runs", l->mesh_runs, l->mesh_run_count, sizeof *l->mesh_runs);
+    s.mesh_indices = filled(device, "mesh_indices", l->mesh_indices, l->mesh_index_count,
+                            sizeof *l->mesh_indices);
+    s.mesh_normals = filled(device, "mesh_normals", l->mesh_normals, l->mesh_normal_count,
+                            sizeof *l->mesh_normals);
     s.rays = buffer_create(device, "rays_in", COLUMNS * RAYS * sizeof(f32), &error);
     s.selves = buffer_create(device, "selves", 2 * RAYS * sizeof(i32), &error);
     s.t = buffer_create(device, "t", STEPS * RAYS * sizeof(f32), &error);
@@ -108,11 +150,23 @@ Space space_create(Device *device, const char *scene)
 
 void space_destroy(Space *s)
 {
-    Buffer *buffers[] = {s->primitives, s->infos, s->nodes, s->materials, s->extras,
-                         s->pairs,      s->rays,  s->selves, s->t,        s->found};
+    Buffer *buffers[] = {s->primitives, s->infos,        s->nodes,        s->materials, s->extras,
+                         s->blocks,     s->mesh_runs,    s->mesh_indices, s->mesh_normals,
+                         s->pairs,      s->rays,         s->selves,       s->t,         s->found};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         buffer_destroy(buffers[i]);
+    free(s->list);
     layout_destroy(s->layout);
+}
+
+void space_bind(const Space *s, Kernel *kernel)
+{
+    Error error = {0};
+    must(kernel_set_buffer(kernel, "primitives", s->primitives, &error), &error);
+    must(kernel_set_buffer(kernel, "infos", s->infos, &error), &error);
+    must(kernel_set_buffer(kernel, "blocks", s->blocks, &error), &error);
+    must(kernel_set_buffer(kernel, "mesh_runs", s->mesh_runs, &error), &error);
+    must(kernel_set_u32(kernel, "mesh_run_count", s->layout->mesh_run_count, &error), &error);
 }
 
 Answer answer_create(void)
@@ -138,8 +192,7 @@ void search_run(const Search *search, const Space *s, bool all, bool any_hit, bo
     memset(answer->found, 0, 2 * STEPS * RAYS * sizeof(i32));
     must(buffer_upload(s->t, 0, answer->t, STEPS * RAYS * sizeof(f32), &error), &error);
     must(buffer_upload(s->found, 0, answer->found, 2 * STEPS * RAYS * sizeof(i32), &error), &error);
-    must(kernel_set_buffer(k, "primitives", s->primitives, &error), &error);
-    must(kernel_set_buffer(k, "infos", s->infos, &error), &error);
+    space_bind(s, k);
     must(kernel_set_buffer(k, "nodes", s->nodes, &error), &error);
     must(kernel_set_u32(k, "plane_count", s->layout->plane_count, &error), &error);
     must(kernel_set_u32(k, "root", s->layout->root, &error), &error);

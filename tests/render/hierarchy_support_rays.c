@@ -42,11 +42,46 @@ static void random_box_point(const Layout *layout, u64 *seed, f64 point[3])
                                {node->upper_x[slot], node->upper_y[slot], node->upper_z[slot]}};
         for (int k = 0; k < 3; k++) {
             const f64 share = random_unit(seed);
-            point[k] = share < 0.4 ? box[0][k]
-                       : share < 0.8 ? box[1][k] : box[0][k] + (box[1][k] - box[0][k]) * random_unit(seed);
+            point[k] = share < 0.4   ? box[0][k]
+                       : share < 0.8 ? box[1][k]
+                                     : box[0][k] + (box[1][k] - box[0][k]) * random_unit(seed);
         }
         return;
     }
+}
+
+// A random point of a face that rays can meet, often on an edge or a vertex of it. False where the random
+// thing that can be met is no face.
+static bool random_face_point(const Space *s, u64 *seed, f64 point[3])
+{
+    const i32 *pair = s->list[(u32)(s->pair_count * random_unit(seed))];
+    if (!(pair[0] & FACE))
+        return false;
+    const TriangleBlock *block = &s->layout->blocks[(pair[0] & (FACE - 1)) / BLOCK_WIDTH];
+    u32 count = 0;
+    while (count < BLOCK_WIDTH && block->face[count] != NO_INDEX)
+        count++;
+    const u32 lane = (u32)(count * random_unit(seed));
+    const f64 way = random_unit(seed), share = random_unit(seed);
+    const f64 b = way < 0.3 ? 0 : way < 0.7 ? share : 0.9 * share, c = way < 0.7 ? 0 : 0.9 - b;
+    f64 q[3];
+    for (int k = 0; k < 3; k++)
+        q[k] = (1 - b - c) * (f64)block->vertex[0][k][lane] + b * (f64)block->vertex[1][k][lane] +
+               c * (f64)block->vertex[2][k][lane];
+    Vec3 p = {q[0], q[1], q[2]};
+    if (pair[1] >= 0) {
+        const Primitive *map = &s->layout->primitives[pair[1]];
+        const f32x4 x = map->row0, y = map->row1, z = map->row2;
+        const Affine to_object = {.row = {{(f64)x.x, (f64)x.y, (f64)x.z},
+                                          {(f64)y.x, (f64)y.y, (f64)y.z},
+                                          {(f64)z.x, (f64)z.y, (f64)z.z}}};
+        p = affine_point(affine_inverse(to_object), p);
+        p = vec_add(p, (Vec3){(f64)x.w, (f64)y.w, (f64)z.w});
+    }
+    point[0] = p.x;
+    point[1] = p.y;
+    point[2] = p.z;
+    return true;
 }
 
 static void normalize(f64 d[3])
@@ -57,9 +92,9 @@ static void normalize(f64 d[3])
 }
 
 // A quarter of the rays goes along an axis, another one within a coordinate plane, half of the rest anywhere
-// and the others to the borders of boxes. Half of the coordinates are halves, as are those of half of the
+// and the others to the borders of boxes and, where there are meshes, of faces. Half of the coordinates are halves, as are those of half of the
 // shapes, so that rays run along faces and edges.
-static void make_rays(f32 *rays, i32 *selves, const Layout *layout, const Place *place, u64 seed)
+static void make_rays(f32 *rays, i32 *selves, const Space *space, const Place *place, u64 seed)
 {
     for (u32 i = 0; i < RAYS; i++) {
         f64 dir[3], target[3];
@@ -72,7 +107,8 @@ static void make_rays(f32 *rays, i32 *selves, const Layout *layout, const Place 
         for (u32 k = 0; k < 3; k++)
             rays[k * RAYS + i] = place->at[k] + snapped(&seed, 9);
         if (i % 8 >= 6) {
-            random_box_point(layout, &seed, target);
+            if (i % 8 == 6 || !random_face_point(space, &seed, target))
+                random_box_point(space->layout, &seed, target);
             for (u32 k = 0; k < 3; k++)
                 dir[k] = target[k] - (f64)rays[k * RAYS + i];
         }
@@ -91,7 +127,7 @@ void space_aim(const Space *space, const Place *place, u64 seed)
     f32 *rays = malloc(COLUMNS * RAYS * sizeof *rays);
     i32 *selves = malloc(2 * RAYS * sizeof *selves);
     assert_true(rays && selves);
-    make_rays(rays, selves, space->layout, place, seed);
+    make_rays(rays, selves, space, place, seed);
     must(buffer_upload(space->rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error), &error);
     must(buffer_upload(space->selves, 0, selves, 2 * RAYS * sizeof *selves, &error), &error);
     free(rays);
@@ -112,8 +148,9 @@ void search_bounce(const Search *search, const Space *s, u64 seed)
     Kernel *k = search->bounce;
     Buffer *buffer = buffer_create(search->device, "dirs", 3 * RAYS * sizeof *dirs, &error);
     must(buffer && buffer_upload(buffer, 0, dirs, 3 * RAYS * sizeof *dirs, &error), &error);
-    must(kernel_set_buffer(k, "primitives", s->primitives, &error), &error);
-    must(kernel_set_buffer(k, "infos", s->infos, &error), &error);
+    space_bind(s, k);
+    must(kernel_set_buffer(k, "mesh_indices", s->mesh_indices, &error), &error);
+    must(kernel_set_buffer(k, "mesh_normals", s->mesh_normals, &error), &error);
     must(kernel_set_buffer(k, "materials", s->materials, &error), &error);
     must(kernel_set_buffer(k, "extras", s->extras, &error), &error);
     must(kernel_set_u32(k, "n", RAYS, &error), &error);

@@ -1,16 +1,23 @@
-// The hierarchy changes no hit: random scenes of every kind of shape, and of all of them with instances, are
-// searched by the traversal and by a test of every primitive. Both must name the same primitive and instance
-// with the same bits of t, for closest hits, for the hits behind them and for any hit; for batches of vectors
-// and for single rays; for rays from anywhere, along the axes, and from the surfaces.
+// The hierarchy changes no hit: random scenes of every kind of shape, of triangles in meshes, and of all of
+// them with instances, are searched by the traversal and by a test of every primitive and face. Both must
+// name the same primitive or face and instance with the same bits of t, for closest hits, for the hits behind
+// them and for any hit; for batches of vectors and for single rays; for rays from anywhere, along the axes,
+// and from the surfaces.
 #include "hierarchy_support.h"
 
 #include <math.h>
 
-enum { SHAPES = 36 };
+#include "meshes.h"
+
+enum { SHAPES = 36, SOUPS = 4 };
+
+static const u32 soup_sizes[SOUPS] = {2, 30, 300, 4000};
 
 typedef struct Devices {
     Device *device;
     Search vectors, single;
+    char *soups[SOUPS]; // files of so many triangles
+    char *ball;
 } Devices;
 
 static const Place near_place = {"", {0, 0, 0}};
@@ -33,7 +40,8 @@ static u32 compare(const Space *s, const f32 *rays, const Answer *a, const Answe
     }
     if (differ) {
         const u32 ray = first % RAYS;
-        const i32 kind = b->found[2 * first] < 0 ? -1 : (i32)s->layout->primitives[b->found[2 * first]].kind;
+        const i32 met = b->found[2 * first];
+        const i32 kind = met < 0 || met & FACE ? -1 : (i32)s->layout->primitives[met].kind;
         fail_msg("%s: %u of %u differ, the first in step %u: t %.9g and %.9g, primitives %d and %d, "
                  "instances %d and %d, kind of the second %d; ray from %.9g %.9g %.9g towards %.9g %.9g %.9g "
                  "to %.9g",
@@ -86,8 +94,8 @@ static void check_scene(const Devices *d, const char *name, const char *scene, c
     const u32 first = compare_searches(d, &s, name);
     search_bounce(&d->vectors, &s, seed); // t and found are those of closest hits
     const u32 second = compare_searches(d, &s, name);
-    print_message("%-28s %u primitives, %u rays, %u + %u hits\n", name, s.pair_count, 2 * RAYS, first,
-                  second);
+    print_message("%-28s %u primitives and faces, %u rays, %u + %u hits\n", name, s.target_count, 2 * RAYS,
+                  first, second);
     assert_true(first > RAYS / 10 && second > RAYS / 20);
     space_destroy(&s);
 }
@@ -110,7 +118,7 @@ static char *point(u64 *seed, f64 range)
 }
 
 // One shape of the kind named, somewhere within about eight units of the origin.
-static void append_shape(char **text, const char *kind, u64 *seed)
+static void append_shape(const Devices *d, char **text, const char *kind, u64 *seed)
 {
     char *a = point(seed, 5), *b = point(seed, 5), *c = point(seed, 5);
     const f64 r = random_unit(seed) < 0.4 ? 1 : random_in(seed, 0.2, 1.8);
@@ -142,6 +150,9 @@ static void append_shape(char **text, const char *kind, u64 *seed)
     else if (strcmp(kind, "torus") == 0)
         text_append(&own, "torus { center %s axis %s major %g minor %g", a, caps ? "0 1 0" : "1 0.5 0.2", r,
                     caps ? 0.25 * r : r);
+    else if (strcmp(kind, "mesh") == 0)
+        text_append(&own, "mesh { file \"%s\" %s translate %s", d->soups[random_unit(seed) < 0.5],
+                    caps ? "smooth off" : "", a);
     else if (caps)
         text_append(&own, "triangle { vertices %s %s %s normals 0 1 0 0 1 0.5 1 0 0", a, b, c);
     else
@@ -159,8 +170,8 @@ static void append_shape(char **text, const char *kind, u64 *seed)
 static const char head[] =
     "material glass phong { transmit 0.9 }\nmaterial tinted phong { transmit 0 0.5 0 }\n";
 
-static const char *const kinds[] = {"sphere", "giant",    "ellipsoid", "plane", "box",     "tetrahedron",
-                                    "disk",   "cylinder", "cone",      "torus", "triangle"};
+static const char *const kinds[] = {"sphere", "giant",    "ellipsoid", "plane", "box",      "tetrahedron",
+                                    "disk",   "cylinder", "cone",      "torus", "triangle", "mesh"};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 static void test_each_kind(void **state)
@@ -171,7 +182,7 @@ static void test_each_kind(void **state)
         u64 seed = 100 + k;
         const bool endless = strcmp(kinds[k], "plane") == 0 || strcmp(kinds[k], "giant") == 0;
         for (u32 i = 0; i < (endless ? 6 : SHAPES); i++)
-            append_shape(&scene, kinds[k], &seed);
+            append_shape(d, &scene, kinds[k], &seed);
         text_append(&scene, "box { center 0 0 0 size 0.5 }\n"); // the programs want a hierarchy
         check_scene(d, kinds[k], scene, &near_place, 1000 + k);
         free(scene);
@@ -179,30 +190,30 @@ static void test_each_kind(void **state)
 }
 
 // Shapes of all kinds but for endless ones, which are one each.
-static void append_mixture(char **scene, u64 *seed, u32 count, bool endless)
+static void append_mixture(const Devices *d, char **scene, u64 *seed, u32 count, bool endless)
 {
     for (u32 i = 0; i < count; i++) {
         const char *kind = kinds[i % KINDS];
         const bool wide = strcmp(kind, "plane") == 0 || strcmp(kind, "giant") == 0;
         if (!wide || (endless && i < KINDS))
-            append_shape(scene, kind, seed);
+            append_shape(d, scene, kind, seed);
     }
 }
 
 // Objects within objects, mirrored, sheared and at the same place.
-static char *instanced_scene(void)
+static char *instanced_scene(const Devices *d)
 {
     char *scene = text_of("%s", head);
     u64 seed = 77;
     text_append(&scene, "object inner {\n");
-    append_mixture(&scene, &seed, 13, false);
+    append_mixture(d, &scene, &seed, 13, false);
     text_append(&scene, "}\nobject flat { disk { center 0 0 0 normal 0 1 0 radius 2 }\n"
                         "box { min -1 0 -1 max 1 0.5 1 } plane { point 0 -6 0 normal 0 1 0.1 } }\n"
                         "object single { sphere { center 0 0 0 radius 1 } }\n"
                         "object outer {\ninstance inner { scale 0.5 translate 2 0 0 }\n"
                         "instance inner { scale 0.4 -0.5 0.6 rotate z 40 translate -3 1 0 material tinted }\n"
                         "sphere { center 0 0 0 radius 1.5 }\nbox { min -4 -2 -4 max 4 -1.5 4 }\n}\n");
-    append_mixture(&scene, &seed, 9, true);
+    append_mixture(d, &scene, &seed, 9, true);
     for (u32 i = 0; i < 3; i++) {
         char *at = point(&seed, 4);
         text_append(&scene, "instance outer { matrix 1 0.3 0 0  0 1 0.2 0  0.1 0 1 0 rotate y %u "
@@ -220,38 +231,77 @@ static char *instanced_scene(void)
 
 static void test_all_kinds(void **state)
 {
+    const Devices *d = *state;
     char *scene = text_of("%s", head);
     u64 seed = 5;
-    append_mixture(&scene, &seed, 120, true);
-    check_scene(*state, "all kinds", scene, &near_place, 50);
-    check_scene(*state, "all kinds, far away", scene, &far_place, 51);
+    append_mixture(d, &scene, &seed, 120, true);
+    check_scene(d, "all kinds", scene, &near_place, 50);
+    check_scene(d, "all kinds, far away", scene, &far_place, 51);
     free(scene);
 }
 
 static void test_instances(void **state)
 {
-    char *scene = instanced_scene();
-    check_scene(*state, "instances", scene, &near_place, 60);
-    check_scene(*state, "instances, far away", scene, &far_place, 61);
+    const Devices *d = *state;
+    char *scene = instanced_scene(d);
+    check_scene(d, "instances", scene, &near_place, 60);
+    check_scene(d, "instances, far away", scene, &far_place, 61);
     free(scene);
+}
+
+// Thousands of triangles of one file, and between them shapes of all kinds and the same file again, by
+// instances that bring a material or leave it at that of the file.
+static void test_soups(void **state)
+{
+    const Devices *d = *state;
+    u64 seed = 21;
+    char *alone = text_of("mesh { file \"%s\" scale 3 }\n", d->soups[3]);
+    check_scene(d, "soup", alone, &near_place, 90);
+    check_scene(d, "soup, far away", alone, &far_place, 91);
+    char *scene = text_of("%s%sobject soup { mesh { file \"%s\" } mesh { file \"%s\" material tinted } "
+                          "sphere { center 0 0 0 radius 0.5 } }\n", head, alone, d->soups[2], d->soups[1]);
+    append_mixture(d, &scene, &seed, 40, true);
+    text_append(&scene, "instance soup { scale 2 -1 1 rotate x 20 }\ninstance soup { material glass }\n"
+                        "instance soup { scale 0.5 translate 3 2 1 }\n"
+                        "object outer { instance soup { rotate z 10 material tinted }\n"
+                        "    box { center 0 0 3 size 1 } }\n"
+                        "instance outer { translate -3 1 0 }\n"
+                        "instance outer { translate -3 1 0 material glass }\n");
+    check_scene(d, "soups, shapes and instances", scene, &near_place, 92);
+    free(alone);
+    free(scene);
+}
+
+// The place of a hit in the order of definition.
+static u64 place_of(const Layout *layout, i32 met, i32 instance)
+{
+    return order_of(layout, met) + (instance < 0 ? 0 : order_of(layout, instance));
 }
 
 // Everything twice, at the same place: only what comes first is ever seen.
 static void test_first_defined_wins(void **state)
 {
-    const Devices *d = *state;
+    // Of faces that do not lie at the same place by themselves.
+    Devices balls = *(const Devices *)*state;
+    const Devices *d = &balls;
+    balls.soups[0] = balls.soups[1] = balls.ball;
     char *once = NULL, *scene = text_of("%sobject pair { sphere { center 0 0 0 radius 0.8 } "
                                         "torus { center 0 0 0 axis 0 1 0 major 1.2 minor 0.3 } }\n", head);
     u64 seed = 8;
-    append_mixture(&once, &seed, 60, true);
+    append_mixture(d, &once, &seed, 60, true);
     text_append(&once, "instance pair { translate 1 2 -3 }\ninstance pair { scale 2 rotate x 30 }\n");
     text_append(&scene, "%s%s", once, once);
     Space s = space_create(d->device, scene);
     u64 end = 0; // of the order of definition
-    for (u32 i = 0; i < s.layout->primitive_count; i++) {
-        const u64 order = (u64)s.layout->infos[i].order_high << 32 | s.layout->infos[i].order_low;
-        const bool instance = (s.layout->primitives[i].kind & PRIMITIVE_KIND_MASK) == PRIMITIVE_INSTANCE;
-        end = order + (instance ? 2 : 1) > end ? order + (instance ? 2 : 1) : end;
+    for (u32 i = 0; i < s.pair_count; i++) {
+        const bool faces = s.list[i][0] & FACE;
+        for (i32 k = 0; k < (faces ? BLOCK_WIDTH : 1); k++) {
+            const i32 met = s.list[i][0] + k;
+            if (faces && s.layout->blocks[(met & (FACE - 1)) / BLOCK_WIDTH].face[k] == NO_INDEX)
+                continue;
+            const u64 order = place_of(s.layout, met, s.list[i][1]);
+            end = order + 1 > end ? order + 1 : end;
+        }
     }
     assert_true(end % 2 == 0);
     space_aim(&s, &near_place, 80);
@@ -264,12 +314,7 @@ static void test_first_defined_wins(void **state)
         for (u32 i = 0; i < 2 * RAYS; i++) {
             if (answer.found[2 * i] < 0 || (i >= RAYS && answer.found[2 * (i - RAYS)] < 0))
                 continue;
-            u64 order = 0;
-            for (u32 part = 0; part < 2; part++) {
-                const i32 at = answer.found[2 * i + part];
-                if (at >= 0)
-                    order += (u64)s.layout->infos[at].order_high << 32 | s.layout->infos[at].order_low;
-            }
+            const u64 order = place_of(s.layout, answer.found[2 * i], answer.found[2 * i + 1]);
             hits++;
             // The first hit belongs to the first half; right behind it, at the same t, is its twin.
             assert_true((order < end / 2) == (i < RAYS));
@@ -289,15 +334,25 @@ int main(void)
     Devices d = {.device = test_device_open(0)};
     if (!d.device)
         return TEST_SKIP;
+    for (u32 k = 0; k < SOUPS; k++) {
+        char *name = text_of("hierarchy_test_%u.obj", k);
+        d.soups[k] = mesh_write_soup(name, soup_sizes[k], 40 + k);
+        free(name);
+    }
+    d.ball = mesh_write_bumpy("hierarchy_test_ball.obj", 12);
     d.vectors = search_create(d.device, 8, 32);
     d.single = search_create(d.device, 1, 1);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_prestate(test_each_kind, &d),
         cmocka_unit_test_prestate(test_all_kinds, &d),
         cmocka_unit_test_prestate(test_instances, &d),
+        cmocka_unit_test_prestate(test_soups, &d),
         cmocka_unit_test_prestate(test_first_defined_wins, &d),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    for (u32 k = 0; k < SOUPS; k++)
+        mesh_remove(d.soups[k]);
+    mesh_remove(d.ball);
     search_destroy(&d.vectors);
     search_destroy(&d.single);
     device_close(d.device);

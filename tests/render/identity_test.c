@@ -15,8 +15,9 @@ typedef struct Fixture {
     Picture pictures[SCENES]; // made in the usual way
 } Fixture;
 
-// Triangles alone, so many and so small that packets of rays and single rays meet them in blocks of all kinds.
-static char *scene_of_meshes(void)
+// Triangles alone, so many and so small that packets of rays and single rays meet them in blocks of all
+// kinds.
+static Layout *layout_of_meshes(void)
 {
     char *ball = mesh_write_bumpy("identity_test_ball.obj", 60);
     char *soup = mesh_write_soup("identity_test_soup.obj", 300, 4);
@@ -32,16 +33,19 @@ static char *scene_of_meshes(void)
         "mesh { file \"%s\" material clear scale 0.75 rotate 1 1 1 40 translate 1 -0.25 1 }\n"
         "mesh { file \"%s\" translate 0 0 -3 }\n",
         ball, ball, soup);
-    free(ball);
-    free(soup);
-    return text;
+    Layout *layout = layout_of(text);
+    free(text);
+    mesh_remove(ball);
+    mesh_remove(soup);
+    return layout;
 }
 
-static void remove_meshes(void)
+static Layout *layout_of_marked(const char *marked)
 {
-    remove("identity_test_ball.obj");
-    remove("identity_test_soup.obj");
-    remove("identity_test_soup.mtl");
+    char *text = scene_under(marked, NULL);
+    Layout *layout = layout_of(text);
+    free(text);
+    return layout;
 }
 
 static void test_every_feature(void **state)
@@ -189,18 +193,13 @@ int main(void)
     Fixture f = {.device = test_device_open(0)};
     if (!f.device)
         return TEST_SKIP;
-    char *meshes = scene_of_meshes();
-    const char *const marked[SCENES] = {scene_glass, scene_toys, scene_glass, meshes};
+    const char *const marked[SCENES] = {scene_glass, scene_toys, scene_glass};
     const u32 samples[SCENES] = {4, 1, 21, 1};
     for (int k = 0; k < SCENES; k++) {
-        char *text = scene_under(marked[k], NULL);
-        f.layouts[k] = layout_of(text);
+        f.layouts[k] = marked[k] ? layout_of_marked(marked[k]) : layout_of_meshes();
         f.layouts[k]->params.samples = samples[k];
         f.pictures[k] = render_layout(f.device, f.layouts[k], NULL);
-        free(text);
     }
-    free(meshes);
-    remove_meshes();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_prestate(test_every_feature, &f), cmocka_unit_test_prestate(test_again, &f),
         cmocka_unit_test_prestate(test_memory, &f),        cmocka_unit_test_prestate(test_crop, &f),

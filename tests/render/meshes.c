@@ -109,9 +109,15 @@ static u32 write_fan(FILE *file, u64 *seed)
     return 6;
 }
 
+// The path of the MTL file beside an OBJ; the caller's to free.
+static char *materials_path(const char *path)
+{
+    return text_of("%.*s.mtl", (int)(strlen(path) - strlen(".obj")), path);
+}
+
 static void write_materials(const char *path)
 {
-    char *mtl = text_of("%.*s.mtl", (int)(strlen(path) - strlen(".obj")), path);
+    char *mtl = materials_path(path);
     FILE *file = fopen(mtl, "w");
     if (!file)
         fail_msg("cannot write %s", mtl);
@@ -145,4 +151,13 @@ char *mesh_write_soup(const char *name, u32 triangles, u64 seed)
     }
     assert_int_equal(fclose(file), 0);
     return path;
+}
+
+void mesh_remove(char *path)
+{
+    char *mtl = materials_path(path);
+    remove(path);
+    remove(mtl);
+    free(mtl);
+    free(path);
 }

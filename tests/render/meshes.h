@@ -4,8 +4,8 @@
 
 #include "base/types.h"
 
-// Both return the path, from the root, of the OBJ file `name`, which is written anew; it is the caller's to
-// free, and the file the caller's to remove. Errors fail the running test.
+// Both return the path, from the root, of the OBJ file `name`, which is written anew; the caller's to give to
+// mesh_remove. Errors fail the running test.
 
 // A closed ball of radius 0.75 to 1.25 with bumps and dents: 2 n (n / 2 - 1) triangles, uvs, no normals.
 char *mesh_write_bumpy(const char *name, u32 n);
@@ -14,5 +14,8 @@ char *mesh_write_bumpy(const char *name, u32 n);
 // and some twice; half of the coordinates are halves. Faces in turn have no material, or "glassy" (lets light
 // through) or "solid" of the file NAME.mtl beside it; some have normals.
 char *mesh_write_soup(const char *name, u32 triangles, u64 seed);
+
+// Removes the files and frees the path.
+void mesh_remove(char *path);
 
 #endif
