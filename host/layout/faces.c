@@ -9,6 +9,8 @@
 #include "layout/records.h"
 
 static const u64 FACES_MAX = FACE_TRANSMITS - 1;
+// Kernels count corners, and the numbers of normals and uvs, in 31 bits.
+static const u64 CORNERS_MAX = 0x7fffffff, NORMALS_MAX = 0x7fffffff / 3, UVS_MAX = 0x7fffffff / 2;
 
 // Where a placed mesh has the indices of its corners.
 typedef struct Corners {
@@ -212,10 +214,10 @@ static void count_mesh(FaceWork *work, const PlacedMesh *mesh, Totals *totals)
 
 static bool reserve(Layout *layout, const Totals *totals, Error *error)
 {
-    if (totals->faces > FACES_MAX || totals->indices >= NO_INDEX || totals->normals >= NO_INDEX ||
-        totals->uvs >= NO_INDEX)
-        return error_set(error, ERROR_MEMORY, "%llu triangles are more than the %llu that have numbers",
-                         (unsigned long long)totals->faces, (unsigned long long)FACES_MAX);
+    if (totals->faces > FACES_MAX || totals->indices > CORNERS_MAX || totals->normals > NORMALS_MAX ||
+        totals->uvs > UVS_MAX)
+        return error_set(error, ERROR_MEMORY, "%llu triangles, with their normals and uvs, are too many",
+                         (unsigned long long)totals->faces);
     layout->mesh_run_count = (u32)totals->runs;
     layout->mesh_index_count = (u32)totals->indices;
     layout->mesh_normal_count = (u32)totals->normals;

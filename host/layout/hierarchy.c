@@ -7,7 +7,9 @@
 #include "base/memory.h"
 #include "layout/faces.h"
 
-static const u32 LEAVES_MAX = 1u << 30; // of a kind, see BvhNode.child
+// Kernels count the numbers of a record from the first one of its array on in 31 bits.
+static const u32 PRIMITIVES_MAX = 0x80000000u / (sizeof(ObjectFrame) / sizeof(f32)); // they are beside
+static const u32 BLOCKS_MAX = 0x80000000u / (sizeof(TriangleBlock) / sizeof(f32));
 
 typedef struct Hierarchies {
     Level **levels; // that hold anything, the world's first
@@ -36,12 +38,13 @@ static bool build(Layout *layout, Level *level, Bvh *bvh, Error *error)
     const BvhInput input = { .boxes = level->boxes, .count = level->count, .singles = level->list.count,
                              .first_node = layout->node_count, .first_single = layout->primitive_count,
                              .first_block = layout->block_count };
-    if (level->list.count > LEAVES_MAX - layout->primitive_count ||
-        level->meshes.face_count > LEAVES_MAX - layout->block_count)
-        return error_set(error, ERROR_MEMORY, "more than %u shapes or triangles", LEAVES_MAX);
+    if (level->list.count > PRIMITIVES_MAX - layout->primitive_count)
+        return error_set(error, ERROR_MEMORY, "more than %u shapes", PRIMITIVES_MAX);
     const f64 start = clock_seconds();
     if (!bvh_build(&input, bvh, error))
         return false;
+    if (bvh->block_count > BLOCKS_MAX - layout->block_count)
+        return error_set(error, ERROR_MEMORY, "more triangles than %u blocks of them hold", BLOCKS_MAX);
     layout->build_seconds += clock_seconds() - start;
     level->root = layout->node_count;
     level->first_single = layout->primitive_count;
@@ -70,6 +73,8 @@ static bool reserve(Layout *layout, const Hierarchies *all, bool with_frames, Er
     u64 frames = layout->primitive_count;
     for (u32 i = 0; i < all->count; i++)
         frames += all->levels[i]->meshes.count;
+    if (frames > PRIMITIVES_MAX)
+        return error_set(error, ERROR_MEMORY, "more than %u shapes", PRIMITIVES_MAX);
     layout->frame_count = with_frames ? (u32)frames : 0;
     layout->primitives = page_alloc(layout->primitive_count * sizeof *layout->primitives);
     layout->infos = page_alloc(layout->primitive_count * sizeof *layout->infos);

@@ -87,13 +87,21 @@ static inline v3 block_vertex(global const real *vertex, const BatchShear *s, in
     return shear_flat(v3_sub(v, org), ray_lanes(s->shear_x, k, other), ray_lanes(s->shear_y, k, other));
 }
 
-// One ray of mask after the other (vectors of 16: two) against the triangles of a block. Returns the rays
-// that it stops.
-static inline uint test_block_by_ray(const Hierarchy *scene, const BatchShear *s, BatchHits *hits, uint mask,
-                                     int block, int instance, bool opaque_only)
+// What tests of a block have found: written for every test and kept where something was, so that the loop of
+// tests has no branch to guess.
+typedef struct {
+    LanesF t[BATCH];
+    LanesF on_edge[BATCH]; // 0: the ray meets an edge, or so nearly that only exact arithmetic can tell
+    uint lanes[BATCH];     // that pass within
+    int ray[BATCH], other[BATCH];
+} BlockOffers;
+
+// Tests rays of mask one after the other (vectors of 16: two) against TRIANGLES_A_TEST triangles of a block,
+// those from number `first` on; returns the number of offers.
+static inline int test_triangles(global const real *vertices, const BatchShear *s, const BatchHits *hits,
+                                 uint mask, int first, BlockOffers *offers)
 {
-    global const real *vertices = (global const real *)&scene->blocks[block];
-    uint found = 0;
+    int count = 0;
     for (uint rest = mask; rest;) {
         const int k = lowest_bit(rest);
         rest &= rest - 1;
@@ -102,24 +110,54 @@ static inline uint test_block_by_ray(const Hierarchy *scene, const BatchShear *s
         other = rest ? lowest_bit(rest) : k;
         rest &= rest - 1;
 #endif
-        for (int first = 0; first < BLOCK_WIDTH; first += TRIANGLES_A_TEST) {
-            const v3 a = block_vertex(vertices, s, k, other, first);
-            const v3 b = block_vertex(vertices + 3 * BLOCK_WIDTH, s, k, other, first);
-            const v3 c = block_vertex(vertices + 6 * BLOCK_WIDTH, s, k, other, first);
-            const FlatWeights w = flat_weights(a, b, c);
-            uint lanes = vm_bits(w.inside);
-            if (!lanes)
-                continue;
-            if (vm_any(w.on_edge))
-                lanes &= vm_bits(!w.on_edge | woop_on_edge(a, b, c));
-            LanesF t;
-            t.v = flat_distance(&w, a, b, c, ray_lanes(s->shear_z, k, other));
-            lanes &= vm_bits((t.v > (vf)(0.0f)) & (t.v <= ray_lanes(hits->tfar, k, other)));
-            for (; lanes; lanes &= lanes - 1) {
+        const v3 a = block_vertex(vertices, s, k, other, first);
+        const v3 b = block_vertex(vertices + 3 * BLOCK_WIDTH, s, k, other, first);
+        const v3 c = block_vertex(vertices + 6 * BLOCK_WIDTH, s, k, other, first);
+        const FaceWeights w = face_weights(a, b, c);
+        const vf t = face_distance(&w, a, b, c, ray_lanes(s->shear_z, k, other));
+        const uint lanes = vm_bits(w.inside & (t > (vf)(0.0f)) & (t <= ray_lanes(hits->tfar, k, other)));
+        offers->t[count].v = t;
+        offers->on_edge[count].v = w.least * w.most;
+        offers->lanes[count] = lanes;
+        offers->ray[count] = k;
+        offers->other[count] = other;
+        count += lanes != 0;
+    }
+    return count;
+}
+
+// Whether ray k passes within the face at the slot, by exact arithmetic.
+OUTLINE bool meets_face(const Hierarchy *scene, const BatchShear *s, int k, int slot)
+{
+    global const real *x = (global const real *)&scene->blocks[slot >> 3] + (slot & 7);
+    const v3 org = v3_make((vf)(s->org_x[k]), (vf)(s->org_y[k]), (vf)(s->org_z[k]));
+    const vf shear_x = (vf)(s->shear_x[k]), shear_y = (vf)(s->shear_y[k]);
+    v3 v[3];
+    for (int j = 0; j < 3; j++) {
+        const v3 vertex = v3_make((vf)(x[s->axis_x[k]]), (vf)(x[s->axis_y[k]]), (vf)(x[s->axis_z[k]]));
+        v[j] = shear_flat(v3_sub(vertex, org), shear_x, shear_y);
+        x += 3 * BLOCK_WIDTH;
+    }
+    return vm_any(woop_weights(v[0], v[1], v[2]).within);
+}
+
+// One ray of mask after the other against the triangles of a block. Returns the rays that it stops.
+static inline uint test_block_by_ray(const Hierarchy *scene, const BatchShear *s, BatchHits *hits, uint mask,
+                                     int block, int instance, bool opaque_only)
+{
+    global const real *vertices = (global const real *)&scene->blocks[block];
+    uint found = 0;
+    BlockOffers offers;
+    for (int first = 0; first < BLOCK_WIDTH; first += TRIANGLES_A_TEST) {
+        const int count = test_triangles(vertices, s, hits, mask, first, &offers);
+        for (int i = 0; i < count; i++) {
+            for (uint lanes = offers.lanes[i]; lanes; lanes &= lanes - 1) {
                 const int lane = lowest_bit(lanes);
-                const int ray = lane < BLOCK_WIDTH ? k : other;
-                if (offer_face(scene, hits, ray, t.s[lane], block * BLOCK_WIDTH + first + lane % BLOCK_WIDTH,
-                               instance, opaque_only))
+                const int ray = lane < BLOCK_WIDTH ? offers.ray[i] : offers.other[i];
+                const int slot = block * BLOCK_WIDTH + first + lane % BLOCK_WIDTH;
+                if (offers.on_edge[i].s[lane] == 0.0f && !meets_face(scene, s, ray, slot))
+                    continue;
+                if (offer_face(scene, hits, ray, offers.t[i].s[lane], slot, instance, opaque_only))
                     found |= 1u << ray;
             }
         }
@@ -164,13 +202,14 @@ static inline uint test_block_by_triangle(const Hierarchy *scene, const BatchShe
                 v[j] = shear_flat(v3_sub(v3_make((vf)(x[at]), (vf)(y[at]), (vf)(z[at])), org), shear_x,
                                   shear_y);
             }
-            const FlatWeights w = flat_weights(v[0], v[1], v[2]);
+            const FaceWeights w = face_weights(v[0], v[1], v[2]);
             vm within = w.inside & vm_from_bits(bits);
             if (!vm_any(within))
                 continue;
-            if (vm_any(w.on_edge))
-                within = within & (!w.on_edge | woop_on_edge(v[0], v[1], v[2]));
-            const vf t = flat_distance(&w, v[0], v[1], v[2], VF_LOAD(&s->shear_z[k]));
+            const vm on_edge = w.least * w.most == (vf)(0.0f);
+            if (vm_any(within & on_edge))
+                within = within & (!on_edge | woop_on_edge(v[0], v[1], v[2]));
+            const vf t = face_distance(&w, v[0], v[1], v[2], VF_LOAD(&s->shear_z[k]));
             found |= offer_face_lanes(scene, hits, k, within, t, block * BLOCK_WIDTH + i, instance, opaque_only)
                      << k;
         }

@@ -30,10 +30,10 @@ static inline FaceLanes face_gather(global const TriangleBlock *blocks, vi slot)
     return f;
 }
 
-static inline FlatWeights face_weights(const FaceLanes *f, v3 org, v3 dir)
+static inline FaceWeights face_lanes_weights(const FaceLanes *f, v3 org, v3 dir)
 {
     const RayShear shear = shear_make(dir);
-    return flat_weights(shear_apply(&shear, f->a, org), shear_apply(&shear, f->b, org),
+    return face_weights(shear_apply(&shear, f->a, org), shear_apply(&shear, f->b, org),
                         shear_apply(&shear, f->c, org));
 }
 
@@ -61,8 +61,8 @@ static inline v3 face_normal(const FaceLanes *f, v3 dir)
 // error is that of the sum (Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 6.8.5).
 static inline void surface_mesh_face(const FaceLanes *f, v3 org, v3 dir, SurfaceLanes *s)
 {
-    const FlatWeights w = face_weights(f, org, dir);
-    const vf inverse = (vf)(1.0f) / (w.b0 + w.b1 + w.b2);
+    const FaceWeights w = face_lanes_weights(f, org, dir);
+    const vf inverse = (vf)(1.0f) / w.det;
     const vf b0 = w.b0 * inverse;
     s->b1 = w.b1 * inverse;
     s->b2 = w.b2 * inverse;

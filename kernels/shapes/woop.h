@@ -88,37 +88,36 @@ static inline vf woop_distance(const TriangleWeights *w)
     return fma(w->b2, w->c_z, fma(w->b1, w->b_z, w->b0 * w->a_z)) / w->det;
 }
 
-// The same of a triangle in a mesh, in fewer steps, by products that are rounded before they are subtracted.
-// Rounding is monotone, so a difference that is not 0 has the right sign; `on_edge` are the lanes where one is
-// 0 and which woop_on_edge decides. A weight is off by a rounding unit of |a| |b|, the share of the vertices'
-// own error (as far as they are from the origin, farther than from each other) in it is larger.
+// The same of a face of a mesh without the rule for edges, which is hardly ever asked: inside includes them,
+// and where the least or the most of the weights is 0, woop_on_edge decides.
 typedef struct {
-    vf b0, b1, b2;
-    vm inside, on_edge;
-} FlatWeights;
+    vf b0, b1, b2, det;
+    vf least, most; // of the three
+    vm inside;
+} FaceWeights;
 
-static inline FlatWeights flat_weights(v3 a, v3 b, v3 c)
+static inline FaceWeights face_weights(v3 a, v3 b, v3 c)
 {
-    FlatWeights w;
-    const vf zero = (vf)(0.0f);
-    w.b0 = b.x * c.y - b.y * c.x;
-    w.b1 = c.x * a.y - c.y * a.x;
-    w.b2 = a.x * b.y - a.y * b.x;
-    const vf least = vf_min(vf_min(w.b0, w.b1), w.b2), most = vf_max(vf_max(w.b0, w.b1), w.b2);
-    w.inside = (least >= zero) | (most <= zero);
-    w.on_edge = w.inside & ((least == zero) | (most == zero));
+    FaceWeights w;
+    w.b0 = edge_function(b, c);
+    w.b1 = edge_function(c, a);
+    w.b2 = edge_function(a, b);
+    w.det = w.b0 + w.b1 + w.b2;
+    w.least = vf_min(vf_min(w.b0, w.b1), w.b2);
+    w.most = vf_max(vf_max(w.b0, w.b1), w.b2);
+    w.inside = (w.least >= (vf)(0.0f)) | (w.most <= (vf)(0.0f));
     return w;
 }
 
-// Whether the ray passes within, in lanes of on_edge.
+// Whether the ray passes within.
 OUTLINE vm woop_on_edge(v3 a, v3 b, v3 c) { return woop_weights(a, b, c).within; }
 
 // t of the hit; z of the vertices is not scaled. Between the least and the largest t of the vertices but for
-// 5 roundings, since the weights are of one sign.
-static inline vf flat_distance(const FlatWeights *w, v3 a, v3 b, v3 c, vf shear_z)
+// 5 roundings, since the weights are of one sign; NaN where the face has no area as the ray sees it.
+static inline vf face_distance(const FaceWeights *w, v3 a, v3 b, v3 c, vf shear_z)
 {
     const vf z = fma(w->b2, c.z, fma(w->b1, b.z, w->b0 * a.z));
-    return z * shear_z / (w->b0 + w->b1 + w->b2);
+    return z * shear_z / w->det;
 }
 
 #endif

@@ -20,20 +20,20 @@ static uint search_all(const Hierarchy *scene, global const int *pairs, uint pai
                        const BatchRays *rays, BatchHits *hits, uint mask, bool any_hit, bool opaque_only)
 {
     BatchRays inner;
-    BatchShear shear, inner_shear;
+    BatchSpace space, inner_space;
     int entered = NO_HIT;
-    prepare_shear(rays, &shear);
+    prepare_space(rays, batch_mask(BATCH), &space);
     for (uint i = 0; i < pair_count && mask; i++) {
         const int primitive = pairs[2 * i], instance = pairs[2 * i + 1];
         if (instance >= 0 && instance != entered) {
             const PrimitiveLanes map = primitive_splat(&scene->primitives[instance]);
             enter_instance(&map, rays, batch_mask(BATCH), &inner);
-            prepare_shear(&inner, &inner_shear);
+            prepare_space(&inner, batch_mask(BATCH), &inner_space);
             entered = instance;
         }
         uint found = 0;
         if (primitive & HIT_MESH)
-            found = test_block_by_ray(scene, instance < 0 ? &shear : &inner_shear, hits, mask,
+            found = test_block_by_ray(scene, instance < 0 ? &space.shear : &inner_space.shear, hits, mask,
                                       (primitive & (HIT_MESH - 1)) / BLOCK_WIDTH, instance, opaque_only);
         else if (!opaque_only || (scene->primitives[primitive].kind & PRIMITIVE_OPAQUE))
             found = test_primitive(scene, instance < 0 ? rays : &inner, hits, mask, primitive, instance);

@@ -53,6 +53,46 @@ static void list_add(Space *s, i32 met, i32 instance)
     s->list[s->pair_count++][1] = instance;
 }
 
+// Shadow rays that look for opaque surfaces leave out what is marked: all that lets light through is.
+static void check_mark(const Layout *layout, bool marked, u32 material, i32 instance)
+{
+    const u32 named = instance < 0 ? NO_INDEX : layout->infos[instance].material;
+    const u32 own = material & ~MATERIAL_INHERITED;
+    const u32 index = material & MATERIAL_INHERITED && named != NO_INDEX ? named : own;
+    assert_true(index < layout->material_count);
+    const f32 *transmit = layout->materials[index].transmit;
+    assert_true(marked || (transmit[0] == 0 && transmit[1] == 0 && transmit[2] == 0));
+}
+
+static u32 face_of(const Layout *layout, i32 met)
+{
+    const u32 slot = (u32)(met & (FACE - 1));
+    return layout->blocks[slot / BLOCK_WIDTH].face[slot % BLOCK_WIDTH];
+}
+
+static const MeshRun *run_of(const Layout *layout, u32 face)
+{
+    u32 run = 0;
+    while (run + 1 < layout->mesh_run_count && layout->mesh_runs[run + 1].first <= face)
+        run++;
+    return &layout->mesh_runs[run];
+}
+
+static void list_block(Space *s, u32 index, i32 instance)
+{
+    const i32 first = FACE | (i32)(index * BLOCK_WIDTH);
+    assert_true(index < s->layout->block_count && face_of(s->layout, first) != NO_INDEX);
+    list_add(s, first, instance);
+    for (i32 k = 0; k < BLOCK_WIDTH; k++) {
+        const u32 face = face_of(s->layout, first + k);
+        if (face == NO_INDEX)
+            continue;
+        s->target_count++;
+        check_mark(s->layout, face & FACE_TRANSMITS, run_of(s->layout, face & ~FACE_TRANSMITS)->material,
+                   instance);
+    }
+}
+
 static void list_leaves(Space *s, u32 node, i32 instance);
 
 static void list_leaf(Space *s, u32 leaf, i32 instance)
@@ -60,10 +100,7 @@ static void list_leaf(Space *s, u32 leaf, i32 instance)
     const Layout *layout = s->layout;
     const u32 index = leaf >> 1;
     if (leaf & 1) {
-        assert_true(index < layout->block_count && layout->blocks[index].face[0] != NO_INDEX);
-        list_add(s, FACE | (i32)(index * BLOCK_WIDTH), instance);
-        for (u32 lane = 0; lane < BLOCK_WIDTH; lane++)
-            s->target_count += layout->blocks[index].face[lane] != NO_INDEX;
+        list_block(s, index, instance);
         return;
     }
     const Primitive *primitive = &layout->primitives[index];
@@ -73,6 +110,7 @@ static void list_leaf(Space *s, u32 leaf, i32 instance)
         list_leaves(s, root, (i32)index);
         return;
     }
+    check_mark(layout, !(primitive->kind & PRIMITIVE_OPAQUE), layout->infos[index].material, instance);
     list_add(s, (i32)index, instance);
     s->target_count++;
 }
@@ -95,13 +133,9 @@ u64 order_of(const Layout *layout, i32 met)
 {
     if (!(met & FACE))
         return (u64)layout->infos[met].order_high << 32 | layout->infos[met].order_low;
-    const u32 slot = (u32)(met & (FACE - 1));
-    const u32 face = layout->blocks[slot / BLOCK_WIDTH].face[slot % BLOCK_WIDTH] & ~FACE_TRANSMITS;
-    u32 run = 0;
-    while (run + 1 < layout->mesh_run_count && layout->mesh_runs[run + 1].first <= face)
-        run++;
-    const MeshRun *r = &layout->mesh_runs[run];
-    return ((u64)r->order_high << 32 | r->order_low) + (face - r->first);
+    const u32 face = face_of(layout, met) & ~FACE_TRANSMITS;
+    const MeshRun *run = run_of(layout, face);
+    return ((u64)run->order_high << 32 | run->order_low) + (face - run->first);
 }
 
 // ---- on the device ----------------------------------------------------------------------------
@@ -125,6 +159,7 @@ Space space_create(Device *device, const char *scene)
     const Layout *l = s.layout;
     for (u32 i = 0; i < l->plane_count; i++)
         list_add(&s, (i32)i, -1);
+    s.target_count = l->plane_count;
     if (l->root != NO_INDEX)
         list_leaves(&s, l->root, -1);
     assert_true(s.pair_count > 0);

@@ -92,8 +92,8 @@ static void normalize(f64 d[3])
 }
 
 // A quarter of the rays goes along an axis, another one within a coordinate plane, half of the rest anywhere
-// and the others to the borders of boxes and, where there are meshes, of faces. Half of the coordinates are halves, as are those of half of the
-// shapes, so that rays run along faces and edges.
+// and the others to the borders of boxes and, where there are meshes, of faces. Half of the coordinates are
+// halves, as are those of half of the shapes, so that rays run along faces and edges.
 static void make_rays(f32 *rays, i32 *selves, const Space *space, const Place *place, u64 seed)
 {
     for (u32 i = 0; i < RAYS; i++) {

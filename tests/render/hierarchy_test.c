@@ -11,7 +11,7 @@
 
 enum { SHAPES = 36, SOUPS = 4 };
 
-static const u32 soup_sizes[SOUPS] = {2, 30, 300, 4000};
+static const u32 soup_sizes[SOUPS] = {2, 30, 300, 1500};
 
 typedef struct Devices {
     Device *device;
@@ -151,8 +151,8 @@ static void append_shape(const Devices *d, char **text, const char *kind, u64 *s
         text_append(&own, "torus { center %s axis %s major %g minor %g", a, caps ? "0 1 0" : "1 0.5 0.2", r,
                     caps ? 0.25 * r : r);
     else if (strcmp(kind, "mesh") == 0)
-        text_append(&own, "mesh { file \"%s\" %s translate %s", d->soups[random_unit(seed) < 0.5],
-                    caps ? "smooth off" : "", a);
+        text_append(&own, "mesh { file \"%s\" %s scale %g translate %s", d->soups[random_unit(seed) < 0.5],
+                    caps ? "smooth off" : "", 2 * r, a);
     else if (caps)
         text_append(&own, "triangle { vertices %s %s %s normals 0 1 0 0 1 0.5 1 0 0", a, b, c);
     else
@@ -278,6 +278,39 @@ static u64 place_of(const Layout *layout, i32 met, i32 instance)
     return order_of(layout, met) + (instance < 0 ? 0 : order_of(layout, instance));
 }
 
+static u64 end_of_order(const Space *s)
+{
+    u64 end = 0;
+    for (u32 i = 0; i < s->pair_count; i++) {
+        const bool faces = s->list[i][0] & FACE;
+        for (i32 k = 0; k < (faces ? BLOCK_WIDTH : 1); k++) {
+            const i32 met = s->list[i][0] + k;
+            if (faces && s->layout->blocks[(met & (FACE - 1)) / BLOCK_WIDTH].face[k] == NO_INDEX)
+                continue;
+            const u64 order = place_of(s->layout, met, s->list[i][1]);
+            end = order + 1 > end ? order + 1 : end;
+        }
+    }
+    return end;
+}
+
+// The first hit of a ray is of the first half of the order; right behind it, at the same t, is its twin. But
+// where a closed mesh is touched at an edge, both its faces are met at once. Returns the number of hits.
+static u32 check_twins(const Layout *layout, const Answer *answer, u32 ray, u64 end)
+{
+    const i32 *first = answer->found + 2 * ray, *second = answer->found + 2 * (RAYS + ray);
+    if (first[0] < 0)
+        return 0;
+    const u64 order = place_of(layout, first[0], first[1]);
+    assert_true(order < end / 2);
+    if (second[0] < 0)
+        return 1;
+    const u64 next = place_of(layout, second[0], second[1]);
+    assert_memory_equal(&answer->t[ray], &answer->t[RAYS + ray], sizeof(f32));
+    assert_true(next >= end / 2 || (next > order && first[0] & FACE && second[0] & FACE));
+    return 2;
+}
+
 // Everything twice, at the same place: only what comes first is ever seen.
 static void test_first_defined_wins(void **state)
 {
@@ -292,17 +325,7 @@ static void test_first_defined_wins(void **state)
     text_append(&once, "instance pair { translate 1 2 -3 }\ninstance pair { scale 2 rotate x 30 }\n");
     text_append(&scene, "%s%s", once, once);
     Space s = space_create(d->device, scene);
-    u64 end = 0; // of the order of definition
-    for (u32 i = 0; i < s.pair_count; i++) {
-        const bool faces = s.list[i][0] & FACE;
-        for (i32 k = 0; k < (faces ? BLOCK_WIDTH : 1); k++) {
-            const i32 met = s.list[i][0] + k;
-            if (faces && s.layout->blocks[(met & (FACE - 1)) / BLOCK_WIDTH].face[k] == NO_INDEX)
-                continue;
-            const u64 order = place_of(s.layout, met, s.list[i][1]);
-            end = order + 1 > end ? order + 1 : end;
-        }
-    }
+    const u64 end = end_of_order(&s);
     assert_true(end % 2 == 0);
     space_aim(&s, &near_place, 80);
     compare_searches(d, &s, "everything twice");
@@ -311,16 +334,8 @@ static void test_first_defined_wins(void **state)
     for (u32 k = 0; k < 2; k++) {
         search_run(searches[k], &s, false, false, false, 2, &answer);
         u32 hits = 0;
-        for (u32 i = 0; i < 2 * RAYS; i++) {
-            if (answer.found[2 * i] < 0 || (i >= RAYS && answer.found[2 * (i - RAYS)] < 0))
-                continue;
-            const u64 order = place_of(s.layout, answer.found[2 * i], answer.found[2 * i + 1]);
-            hits++;
-            // The first hit belongs to the first half; right behind it, at the same t, is its twin.
-            assert_true((order < end / 2) == (i < RAYS));
-            if (i >= RAYS)
-                assert_memory_equal(&answer.t[i], &answer.t[i - RAYS], sizeof(f32));
-        }
+        for (u32 i = 0; i < RAYS; i++)
+            hits += check_twins(s.layout, &answer, i, end);
         assert_true(hits > RAYS / 2);
     }
     answer_destroy(&answer);

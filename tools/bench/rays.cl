@@ -22,10 +22,9 @@ OUTLINE void weigh_hits(const Hierarchy *scene, const BatchRays *rays, const Bat
     placement_enter(&placement, &ray);
 #endif
     const FaceLanes face = face_gather(scene->blocks, hit ? primitive & (HIT_MESH - 1) : (vi)(0));
-    const FlatWeights w = face_weights(&face, ray.org, ray.dir);
-    const vf det = w.b0 + w.b1 + w.b2;
-    VF_STORE(hit ? w.b1 / det : (vf)(0.0f), u);
-    VF_STORE(hit ? w.b2 / det : (vf)(0.0f), v);
+    const FaceWeights w = face_lanes_weights(&face, ray.org, ray.dir);
+    VF_STORE(hit ? w.b1 / w.det : (vf)(0.0f), u);
+    VF_STORE(hit ? w.b2 / w.det : (vf)(0.0f), v);
 }
 #endif
 
