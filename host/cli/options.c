@@ -238,7 +238,7 @@ void options_print_usage(FILE *stream)
         }
     }
     fputs("\n"
-          "Exit status: 0 done, 1 the scene has errors, 2 usage, 3 no device or OpenCL failed,\n"
-          "4 a file could not be read or written, 6 out of memory, 130 interrupted.\n",
+          "Exit status: 0 done, 1 the scene or a mesh has errors, 2 usage, 3 no device or OpenCL failed,\n"
+          "4 SCENE or OUT could not be read or written, 6 out of memory, 130 interrupted.\n",
           stream);
 }

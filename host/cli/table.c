@@ -212,7 +212,7 @@ const Option OPTIONS[] = {
     {0, "exposure", VALUE_REQUIRED, "EV", GROUP_OUTPUT, "stops [the scene's]", take_exposure},
     {0, "tone-map", VALUE_REQUIRED, "NAME", GROUP_OUTPUT,
      "none, reinhard, reinhard_extended,WHITE, aces, hable [the scene's]", take_tone_map},
-    {0, "check", VALUE_NONE, NULL, GROUP_RUN, "read and check SCENE only; needs no device", take_check},
+    {0, "check", VALUE_NONE, NULL, GROUP_RUN, "read and check SCENE and its meshes only; needs no device", take_check},
     {0, "stats", VALUE_OPTIONAL, "FILE.json", GROUP_RUN, "times, rays and memory, on stderr or into the file",
      take_stats},
     {'q', "quiet", VALUE_NONE, NULL, GROUP_RUN, "errors only", take_quiet},

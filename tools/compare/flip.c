@@ -54,7 +54,7 @@ enum { PLANE_L, PLANE_A, PLANE_B, PLANE_EDGE, PLANE_POINT, PLANE_COUNT };
 // horizontally.
 typedef struct Workspace {
     u32 width;
-    FlipScale scale;
+    ValueScale scale;
     f64 *light[3];             // one row, with MAX_RADIUS more pixels at both ends
     f64 *passed[KERNEL_COUNT]; // BAND_ROWS and MAX_RADIUS more rows above and below
     f64 *columns[4];           // one row: sums over the taps
@@ -368,13 +368,13 @@ static bool make_workspace(Workspace *work, u32 width, Error *error)
     return true;
 }
 
-static void decode_levels(Workspace *work, FlipScale scale)
+static void decode_levels(Workspace *work, ValueScale scale)
 {
     for (u32 level = 0; scale.srgb && level <= (u32)scale.peak; level++)
         work->decoded[level] = srgb_decode(level / (f64)scale.peak);
 }
 
-bool flip_compare(const Image *reference, const Image *test, FlipScale scale, f32 *differences, Error *error)
+bool flip_compare(const Image *reference, const Image *test, ValueScale scale, f32 *differences, Error *error)
 {
     const u32 width = reference->width, height = reference->height;
     assert(test->width == width && test->height == height);

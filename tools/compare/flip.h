@@ -6,14 +6,11 @@
 #define CLRT_COMPARE_FLIP_H
 
 #include "image/image.h"
-
-typedef struct FlipScale {
-    f32 peak;  // the value of white, at most 65535; values are clamped to 0 and this
-    bool srgb; // values are sRGB-encoded whole numbers, else proportional to light
-} FlipScale;
+#include "value.h"
 
 // Writes width x height differences, top row first. Both images have one size and no NaN; grey is repeated,
-// alpha is not seen. False with ERROR_MEMORY.
-bool flip_compare(const Image *reference, const Image *test, FlipScale scale, f32 *differences, Error *error);
+// alpha is not seen, values are clamped to 0 and scale.peak. False with ERROR_MEMORY.
+bool flip_compare(const Image *reference, const Image *test, ValueScale scale, f32 *differences,
+                  Error *error);
 
 #endif

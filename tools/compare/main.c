@@ -1,5 +1,5 @@
 // clrt-compare: how two pictures differ. Exit status as of diff: 0 same, 1 different, 2 cannot compare.
-#include "heatmap.h"
+#include "maps.h"
 #include "metrics.h"
 #include "options.h"
 #include "pictures.h"
@@ -22,12 +22,14 @@ static int compare(const Options *options)
     Error error;
     Pictures pictures;
     Metrics metrics;
-    const Region *crop = options->has_crop ? &options->crop : NULL;
-    bool done = pictures_read(options->paths, crop, options->mask, &pictures, &error);
+    bool done = pictures_read(&options->sources, &pictures, &error);
     if (done) {
-        done = metrics_compute(&pictures, &options->limits, &metrics, &error) &&
-               (!options->map || heatmap_write(&pictures, options->map, &error)) &&
-               report(options, &pictures, &metrics, &error);
+        done = metrics_compute(&pictures, &options->limits, &metrics, &error);
+        if (done) {
+            done = maps_write(&pictures, &metrics, options->maps, &error) &&
+                   report(options, &pictures, &metrics, &error);
+            metrics_destroy(&metrics);
+        }
         pictures_destroy(&pictures);
     }
     if (!done) {

@@ -3,6 +3,7 @@
 #define CLRT_COMPARE_OPTIONS_H
 
 #include "base/error.h"
+#include "maps.h"
 #include "metrics.h"
 #include "pictures.h"
 
@@ -10,15 +11,14 @@ typedef enum Action { ACTION_COMPARE, ACTION_HELP, ACTION_VERSION } Action;
 
 typedef struct Options {
     Action action;
-    const char *paths[2];
-    Limits limits;
-    const char *mask, *map; // NULL: none
-    bool has_crop;
+    Sources sources; // its crop is &crop or NULL
     Region crop;
+    Limits limits;
+    const char *maps[MAP_COUNT]; // NULL: none
     bool json, quiet;
 } Options;
 
-// False with ERROR_USAGE. Strings are those of argv.
+// False with ERROR_USAGE. Strings are those of argv, and *options must stay where it is.
 bool options_parse(int argc, char **argv, Options *options, Error *error);
 
 const char *options_usage(void);

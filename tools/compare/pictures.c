@@ -1,9 +1,11 @@
 #include "pictures.h"
 
+#include "hash.h"
 #include "image/pfm.h"
 #include "image/png.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +13,26 @@
 f64 pictures_peak(const Pictures *pictures)
 {
     return pictures->format == FORMAT_PFM ? 1 : pictures->format == FORMAT_PNG8 ? 255 : 65535;
+}
+
+ValueScale pictures_scale(const Pictures *pictures)
+{
+    return (ValueScale){(f32)pictures_peak(pictures), !pictures->linear};
+}
+
+static u32 colors_of(const Image *image)
+{
+    return image->channels >= 3 ? 3 : 1;
+}
+
+f64 pictures_variance(const Pictures *pictures, int picture, u32 x, u32 y, u32 channel)
+{
+    const Image *image = pictures->variances[picture];
+    if (!image)
+        return 0;
+    const f32 *values =
+        image_row(image, pictures->region.y + y) + (size_t)(pictures->region.x + x) * image->channels;
+    return (f64)values[channel < image->channels ? channel : 0];
 }
 
 // The magic number says PFM; all else is libpng's to judge.
@@ -66,7 +88,7 @@ static bool recast(Image **image, Region region, u32 channels, f32 opaque, Error
     Image *to = image_create(region.width, region.height, channels, error);
     if (!to)
         return false;
-    const u32 colors = channels >= 3 ? 3 : 1, from_colors = from->channels >= 3 ? 3 : 1;
+    const u32 colors = channels >= 3 ? 3 : 1, from_colors = colors_of(from);
     const bool alpha = channels % 2 == 0, from_alpha = from->channels % 2 == 0;
     for (u32 y = 0; y < region.height; y++) {
         const f32 *source = image_row(from, region.y + y) + (size_t)region.x * from->channels;
@@ -116,7 +138,7 @@ static bool fill_left_out(Pictures *pictures, const char *path, const Image *mas
     pictures->left_out = calloc((size_t)r.width * r.height, 1);
     if (!pictures->left_out)
         return error_set(error, ERROR_MEMORY, "%s: no memory for the mask", path);
-    const u32 colors = mask->channels >= 3 ? 3 : 1;
+    const u32 colors = colors_of(mask);
     size_t left = 0;
     for (u32 y = 0; y < r.height; y++) {
         const f32 *values = image_row(mask, r.y + y) + (size_t)r.x * mask->channels;
@@ -149,30 +171,77 @@ static bool read_mask(Pictures *pictures, const char *path, u32 width, u32 heigh
     return done;
 }
 
-static bool read_all(const char *const paths[2], const Region *crop, const char *mask, Pictures *pictures,
-                     Error *error)
+// Of the pixels that are compared.
+static bool check_variances(const Pictures *pictures, int picture, const char *path, Error *error)
 {
+    const Region r = pictures->region;
+    const u32 colors = colors_of(pictures->images[0]);
+    for (u32 y = 0; y < r.height; y++) {
+        for (u32 x = 0; x < r.width; x++) {
+            if (pictures->left_out && pictures->left_out[(size_t)y * r.width + x])
+                continue;
+            for (u32 c = 0; c < colors; c++) {
+                const f64 variance = pictures_variance(pictures, picture, x, y, c);
+                if (!(variance >= 0 && isfinite(variance)))
+                    return error_set(error, ERROR_USAGE, "%s: pixel %u, %u: %g is not a variance", path,
+                                     r.x + x, r.y + y, variance);
+            }
+        }
+    }
+    return true;
+}
+
+// width, height: of the files.
+static bool read_variances(Pictures *pictures, int picture, const char *path, u32 width, u32 height,
+                           Error *error)
+{
+    if (pictures->format != FORMAT_PFM)
+        return error_set(error, ERROR_USAGE, "%s: only PFMs are compared with their variances", path);
+    bool pfm = false;
+    if (!is_pfm(path, &pfm, error))
+        return false;
+    if (!pfm)
+        return error_set(error, ERROR_USAGE, "%s: variances are a PFM", path);
+    Image *image = pictures->variances[picture] = pfm_image_read(path, error);
+    if (!image)
+        return false;
+    if (image->width != width || image->height != height)
+        return error_set(error, ERROR_USAGE, "%s: the variances are %u x %u, the pictures are %u x %u", path,
+                         image->width, image->height, width, height);
+    if (image->channels > pictures->images[0]->channels)
+        return error_set(error, ERROR_USAGE, "%s: the variances are of colours, the pictures are grey", path);
+    return check_variances(pictures, picture, path, error);
+}
+
+static bool read_all(const Sources *sources, Pictures *pictures, Error *error)
+{
+    static const u32 BYTES[] = {[FORMAT_PNG8] = 1, [FORMAT_PNG16] = 2, [FORMAT_PFM] = 4};
     Format formats[2];
     bool linear[2];
     for (int i = 0; i < 2; i++) {
-        pictures->images[i] = read_picture(paths[i], &formats[i], &linear[i], error);
+        pictures->images[i] = read_picture(sources->paths[i], &formats[i], &linear[i], error);
         if (!pictures->images[i])
             return false;
     }
-    if (!check_alike(paths, pictures->images, formats, linear, error))
+    if (!check_alike(sources->paths, pictures->images, formats, linear, error))
         return false;
+    for (int i = 0; i < 2; i++)
+        pictures->hashes[i] = hash_image(pictures->images[i], BYTES[formats[i]]);
     pictures->format = formats[0];
     pictures->linear = linear[0];
     const u32 width = pictures->images[0]->width, height = pictures->images[0]->height;
-    return set_region(pictures, crop, error) && make_alike(pictures, error) &&
-           (!mask || read_mask(pictures, mask, width, height, error));
+    bool done = set_region(pictures, sources->crop, error) && make_alike(pictures, error) &&
+                (!sources->mask || read_mask(pictures, sources->mask, width, height, error));
+    for (int i = 0; i < 2 && done; i++)
+        done = !sources->variances[i] ||
+               read_variances(pictures, i, sources->variances[i], width, height, error);
+    return done;
 }
 
-bool pictures_read(const char *const paths[2], const Region *crop, const char *mask, Pictures *pictures,
-                   Error *error)
+bool pictures_read(const Sources *sources, Pictures *pictures, Error *error)
 {
     *pictures = (Pictures){.region = {0, 0, 0, 0}};
-    if (read_all(paths, crop, mask, pictures, error))
+    if (read_all(sources, pictures, error))
         return true;
     pictures_destroy(pictures);
     return false;
@@ -180,8 +249,10 @@ bool pictures_read(const char *const paths[2], const Region *crop, const char *m
 
 void pictures_destroy(Pictures *pictures)
 {
-    image_destroy(pictures->images[0]);
-    image_destroy(pictures->images[1]);
+    for (int i = 0; i < 2; i++) {
+        image_destroy(pictures->images[i]);
+        image_destroy(pictures->variances[i]);
+    }
     free(pictures->left_out);
     *pictures = (Pictures){.region = {0, 0, 0, 0}};
 }

@@ -12,23 +12,11 @@
 #include "image/color.h"
 #include "synthetic.h"
 
-enum { COUNT = SYNTHETIC_WIDTH * SYNTHETIC_HEIGHT };
+enum { COUNT = SYNTHETIC_COUNT };
 
-static const FlipScale LEVELS = {255, true};
+static const ValueScale LEVELS = {255, true};
 
-static Image *make(Synthetic kind)
-{
-    Error error;
-    Image *image = image_create(SYNTHETIC_WIDTH, SYNTHETIC_HEIGHT, 3, &error);
-    assert_non_null(image);
-    for (u32 y = 0; y < SYNTHETIC_HEIGHT; y++) {
-        for (u32 i = 0; i < SYNTHETIC_WIDTH * 3; i++)
-            image_row(image, y)[i] = (f32)synthetic_level(kind, i / 3, y, i % 3);
-    }
-    return image;
-}
-
-static f64 compare_images(const Image *a, const Image *b, FlipScale scale, f32 *differences)
+static f64 compare_images(const Image *a, const Image *b, ValueScale scale, f32 *differences)
 {
     Error error;
     assert_true(flip_compare(a, b, scale, differences, &error));
@@ -43,7 +31,7 @@ static f64 compare_images(const Image *a, const Image *b, FlipScale scale, f32 *
 static f64 compare(Synthetic a, Synthetic b)
 {
     static f32 differences[COUNT];
-    Image *images[2] = {make(a), make(b)};
+    Image *images[2] = {synthetic_image(a), synthetic_image(b)};
     const f64 mean = compare_images(images[0], images[1], LEVELS, differences);
     image_destroy(images[0]);
     image_destroy(images[1]);
@@ -86,7 +74,7 @@ static void test_a_firefly_is_local(void **state)
 {
     (void)state;
     static f32 differences[COUNT];
-    Image *images[2] = {make(SYNTHETIC_RAMP), make(SYNTHETIC_FIREFLY)};
+    Image *images[2] = {synthetic_image(SYNTHETIC_RAMP), synthetic_image(SYNTHETIC_FIREFLY)};
     compare_images(images[0], images[1], LEVELS, differences);
     f32 most = 0;
     int most_at = 0;
@@ -109,13 +97,13 @@ static void test_forms_of_the_same_picture(void **state)
 {
     (void)state;
     static f32 expected[COUNT], differences[COUNT];
-    Image *images[2] = {make(SYNTHETIC_NOISE), make(SYNTHETIC_RAMP)};
+    Image *images[2] = {synthetic_image(SYNTHETIC_NOISE), synthetic_image(SYNTHETIC_RAMP)};
     compare_images(images[0], images[1], LEVELS, expected);
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < COUNT * 3; i++)
             images[k]->values[i] *= 257;
     }
-    compare_images(images[0], images[1], (FlipScale){65535, true}, differences);
+    compare_images(images[0], images[1], (ValueScale){65535, true}, differences);
     for (int i = 0; i < COUNT; i++)
         assert_true(fabsf(differences[i] - expected[i]) < 1e-6f);
     for (int k = 0; k < 2; k++) {
@@ -125,7 +113,7 @@ static void test_forms_of_the_same_picture(void **state)
     // Beyond white, below black: clamped.
     images[0]->values[0] = images[1]->values[0] = INFINITY;
     images[0]->values[1] = images[1]->values[1] = -3;
-    compare_images(images[0], images[1], (FlipScale){1, false}, differences);
+    compare_images(images[0], images[1], (ValueScale){1, false}, differences);
     for (int i = COUNT / 2; i < COUNT; i++)
         assert_true(fabsf(differences[i] - expected[i]) < 1e-4f);
 

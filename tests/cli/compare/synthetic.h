@@ -1,10 +1,11 @@
-// The synthetic pictures that FLIP is checked on: whole levels of 8 bits, RGB.
+// The synthetic pictures that FLIP, SSIM and relMSE are checked on: whole levels of 8 bits, RGB.
+// After cmocka.h.
 #ifndef SYNTHETIC_H
 #define SYNTHETIC_H
 
-#include "base/types.h"
+#include "image/image.h"
 
-enum { SYNTHETIC_WIDTH = 75, SYNTHETIC_HEIGHT = 130 };
+enum { SYNTHETIC_WIDTH = 75, SYNTHETIC_HEIGHT = 130, SYNTHETIC_COUNT = SYNTHETIC_WIDTH * SYNTHETIC_HEIGHT };
 
 typedef enum Synthetic {
     SYNTHETIC_BLACK,
@@ -57,6 +58,18 @@ static inline u32 synthetic_level(Synthetic kind, u32 x, u32 y, u32 channel)
         return SQUARES[((x + 1) / 5 + y / 5) % 2][channel];
     }
     return 0;
+}
+
+static inline Image *synthetic_image(Synthetic kind)
+{
+    Error error;
+    Image *image = image_create(SYNTHETIC_WIDTH, SYNTHETIC_HEIGHT, 3, &error);
+    assert_non_null(image);
+    for (u32 y = 0; y < SYNTHETIC_HEIGHT; y++) {
+        for (u32 i = 0; i < SYNTHETIC_WIDTH * 3; i++)
+            image_row(image, y)[i] = (f32)synthetic_level(kind, i / 3, y, i % 3);
+    }
+    return image;
 }
 
 #endif
