@@ -115,6 +115,12 @@ static void test_what_passes(void **state)
     limits = LIMITS;
     limits.variance_floor = 5;
     assert_true(ztest_compute(&pictures, &limits, NULL).passed_pixels == PIXELS);
+    // Each colour has its own variance.
+    pictures.variances[0]->values[30] = 100;
+    test = ztest_compute(&pictures, &LIMITS, NULL);
+    assert_true(test.passed_pixels == PIXELS - 1 && test.channel == 1);
+    pictures.variances[0]->values[31] = 100;
+    assert_true(ztest_compute(&pictures, &LIMITS, NULL).passed_pixels == PIXELS);
     pictures_destroy(&pictures);
 }
 
