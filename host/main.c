@@ -8,6 +8,7 @@
 #include <omp.h>
 #endif
 
+#include "checkup.h"
 #include "cli/devices.h"
 #include "cli/options.h"
 #include "interrupt.h"
@@ -49,6 +50,8 @@ static bool perform(const Options *options, Interrupt *interrupt, Error *error)
         return check_stdout(error);
     case ACTION_LIST_DEVICES:
         return list_devices(options->json, error);
+    case ACTION_SELF_TEST:
+        return checkup_make(options, error) && check_stdout(error);
     case ACTION_CHECK:
     case ACTION_RENDER:
         break;

@@ -1,10 +1,10 @@
 #include "picture.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "assets/assets.h"
 #include "base/clock.h"
+#include "cli/devices.h"
 #include "cli/progress.h"
 #include "cli/stats.h"
 #include "device/device.h"
@@ -13,6 +13,7 @@
 #include "render/render.h"
 #include "scene/parse.h"
 #include "scene/support.h"
+#include "selftest/trust.h"
 
 // What lives as long as the run.
 typedef struct Picture {
@@ -36,14 +37,8 @@ static bool choose_device(Picture *picture, Error *error)
     const f64 start = clock_seconds();
     picture->devices = device_list_create(error);
     picture->stats.device_seconds = clock_seconds() - start;
-    if (!picture->devices)
-        return false;
-    const char *spec = picture->options->device, *environment = getenv("CLRT_DEVICE");
-    if (spec || !environment || !environment[0])
-        return device_choose(picture->devices, spec, &picture->device_index, error);
-    Error reason;
-    return device_choose(picture->devices, environment, &picture->device_index, &reason) ||
-           error_set(error, reason.code, "CLRT_DEVICE: %s", reason.text);
+    return picture->devices &&
+           devices_choose(picture->devices, picture->options->device, &picture->device_index, error);
 }
 
 // Prints what there is to say about the scene; false where that is an error.
@@ -97,6 +92,19 @@ static bool lay_out(Picture *picture, Error *error)
     return picture->layout != NULL;
 }
 
+// The first time that a device is used it is asked for known answers.
+static bool try_device(Picture *picture, Error *error)
+{
+    const f64 start = clock_seconds();
+    bool asked;
+    const bool ok = trust_device(picture->device, &asked, error);
+    const f64 seconds = clock_seconds() - start;
+    picture->stats.device_seconds += seconds;
+    if (ok && asked && picture->options->verbose)
+        fprintf(stderr, "clrt: first use of this device, known answers in %.2f s\n", seconds);
+    return ok;
+}
+
 static bool open_device(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
@@ -106,7 +114,7 @@ static bool open_device(Picture *picture, Error *error)
     picture->stats.device_seconds += clock_seconds() - start;
     if (picture->device && options->verbose)
         fprintf(stderr, "clrt: device %s\n", device_info(picture->device)->name);
-    return picture->device != NULL;
+    return picture->device && (options->force_device || try_device(picture, error));
 }
 
 static bool open_output(Picture *picture, Error *error)

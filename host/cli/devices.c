@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <jansson.h>
+#include <stdlib.h>
 #include <string.h>
 
 void devices_print(const DeviceList *list, FILE *stream)
@@ -66,4 +67,14 @@ bool devices_print_json(const DeviceList *list, FILE *stream, Error *error)
     if (!ok && ferror(stream))
         return error_set(error, ERROR_IO, "standard output: %s", strerror(errno));
     return ok || error_set(error, ERROR_MEMORY, "no memory for the list of devices");
+}
+
+bool devices_choose(const DeviceList *list, const char *spec, u32 *index, Error *error)
+{
+    const char *environment = getenv("CLRT_DEVICE");
+    if (spec || !environment || !environment[0])
+        return device_choose(list, spec, index, error);
+    Error reason;
+    return device_choose(list, environment, index, &reason) ||
+           error_set(error, reason.code, "CLRT_DEVICE: %s", reason.text);
 }

@@ -1,4 +1,5 @@
-// What --list-devices prints. Knows nothing of OpenCL but the list.
+// Devices as the command line speaks of them: what --list-devices prints, and which one is meant. Knows
+// nothing of OpenCL but the list.
 #ifndef CLRT_CLI_DEVICES_H
 #define CLRT_CLI_DEVICES_H
 
@@ -12,5 +13,9 @@ void devices_print(const DeviceList *list, FILE *stream);
 
 // The same as a JSON object with the arrays "devices" and "platforms". Fails with ERROR_MEMORY.
 bool devices_print_json(const DeviceList *list, FILE *stream, Error *error);
+
+// The index of the device that is meant: by --device (spec; NULL where it is not given), else by CLRT_DEVICE
+// in the environment, else the default. Errors are those of device_choose.
+bool devices_choose(const DeviceList *list, const char *spec, u32 *index, Error *error);
 
 #endif

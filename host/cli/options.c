@@ -147,6 +147,8 @@ static void check_together(Reader *reader)
         mistake(reader, "--quiet and --verbose exclude each other");
     if (options->action == ACTION_LIST_DEVICES && options->scene)
         mistake(reader, "--list-devices takes no SCENE");
+    if (options->action == ACTION_SELF_TEST && options->scene)
+        mistake(reader, "--self-test takes no SCENE");
     if (options->action != ACTION_RENDER && options->action != ACTION_CHECK)
         return;
     if (!options->scene)
@@ -217,6 +219,7 @@ void options_print_usage(FILE *stream)
     fputs("Usage: clrt [options] SCENE OUT\n"
           "       clrt --check SCENE\n"
           "       clrt --list-devices [--json]\n"
+          "       clrt --self-test[=FILE.json]\n"
           "\n"
           "Renders the scene file SCENE on an OpenCL device into the picture OUT, .png or .pfm.\n"
           "SCENE - is standard input, OUT - a PNG on standard output.\n",
@@ -239,6 +242,7 @@ void options_print_usage(FILE *stream)
     }
     fputs("\n"
           "Exit status: 0 done, 1 the scene or a mesh has errors, 2 usage, 3 no device or OpenCL failed,\n"
-          "4 SCENE or OUT could not be read or written, 6 out of memory, 130 interrupted.\n",
+          "4 SCENE or OUT could not be read or written, 5 the self-test failed, 6 out of memory,\n"
+          "130 interrupted.\n",
           stream);
 }

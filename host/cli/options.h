@@ -8,7 +8,14 @@
 #include "base/types.h"
 #include "scene/scene.h"
 
-typedef enum Action { ACTION_RENDER, ACTION_CHECK, ACTION_LIST_DEVICES, ACTION_HELP, ACTION_VERSION } Action;
+typedef enum Action {
+    ACTION_RENDER,
+    ACTION_CHECK,
+    ACTION_LIST_DEVICES,
+    ACTION_SELF_TEST,
+    ACTION_HELP,
+    ACTION_VERSION
+} Action;
 
 typedef struct Options {
     Action action;
@@ -35,6 +42,8 @@ typedef struct Options {
     u32 threads; // 0: not given
     bool stats;
     const char *stats_file; // NULL: on standard error, as text
+    bool force_device; // whatever known answers it gives
+    const char *self_test_file; // NULL: on standard output, as text
 } Options;
 
 // Reads the arguments. Fails with ERROR_USAGE and a line for each mistake. Texts in *options are those of

@@ -13,7 +13,7 @@ typedef struct RunStats {
     f64 parse_seconds;  // reading the scene
     f64 load_seconds;   // reading the meshes that it names
     f64 layout_seconds; // arrays and hierarchies
-    f64 device_seconds; // finding and opening the device
+    f64 device_seconds; // finding, opening and, the first time, trying the device
     f64 total_seconds;  // from the start of main to the closed file
     u32 width, height;  // of the picture
     const char *device_name;

@@ -165,6 +165,20 @@ static const char *take_stats(Options *options, const char *value)
     return value && !*value ? "a file's name" : NULL;
 }
 
+static const char *take_force_device(Options *options, const char *value)
+{
+    (void)value;
+    options->force_device = true;
+    return NULL;
+}
+
+static const char *take_self_test(Options *options, const char *value)
+{
+    options->action = ACTION_SELF_TEST;
+    options->self_test_file = value;
+    return value && !*value ? "a file's name" : NULL;
+}
+
 static const char *take_quiet(Options *options, const char *value)
 {
     (void)value;
@@ -198,6 +212,10 @@ const Option OPTIONS[] = {
      "cpu, gpu, N or P:D of the list, or part of a name [$CLRT_DEVICE, else a GPU, else a CPU]", take_device},
     {'l', "list-devices", VALUE_NONE, NULL, GROUP_DEVICE, "list the OpenCL devices", take_list_devices},
     {0, "json", VALUE_NONE, NULL, GROUP_DEVICE, "with --list-devices: as JSON", take_json},
+    {0, "self-test", VALUE_OPTIONAL, "FILE.json", GROUP_DEVICE,
+     "numerical hard cases on the device: a table, or into the file", take_self_test},
+    {0, "force-device", VALUE_NONE, NULL, GROUP_DEVICE, "render also on a device that gives wrong answers",
+     take_force_device},
     {0, "memory", VALUE_REQUIRED, "MIB", GROUP_DEVICE, "bound of device memory in MiB [the device's]",
      take_memory},
     {0, "threads", VALUE_REQUIRED, "N", GROUP_DEVICE,
@@ -226,7 +244,6 @@ const Option OPTIONS[] = {
     {0, "aov", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "part", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "resume", VALUE_NONE, NULL, GROUP_LATER, NULL, NULL},
-    {0, "self-test", VALUE_NONE, NULL, GROUP_LATER, NULL, NULL},
 };
 
 const size_t OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0];

@@ -13,7 +13,7 @@ void agreed_fill(f32 *x, f32 *y);
 // A hash of the results, all NaN alike.
 u64 agreed_hash(const f32 *results);
 
-// What agreed_hash must be for sin cos acos atan2(x, y) exp exp2 log log2 pow(x, y), as FUNCTION_X numbers
+// What agreed_hash must be for sin cos acos atan2(y, x) exp exp2 log log2 pow(x, y), as FUNCTION_X numbers
 // them. Only a deliberate change of a function changes its number.
 extern const u64 AGREED_HASHES[AGREED_FUNCTIONS];
 

@@ -4,6 +4,8 @@
 #include "selftest/random.h"
 #include "selftest/run.h"
 
+static const char MESH_SCENE[] = "mesh { file \"self-test.obj\" }";
+
 static const f32 BAD[] = {NAN, INFINITY, -INFINITY};
 
 static bool at_shapes(Run *run)
@@ -52,9 +54,7 @@ static bool at_a_mesh(Run *run)
     enum { RAYS = 4096 };
     TriangleList ball = triangles_icosphere(3);
     RayTable *clean = run_rays(run, RAYS), *dirty = run_rays(run, RAYS);
-    Layout *layout = clean && dirty && !ball.failed
-                         ? run_layout(run, "camera { position 0 0 0 look_at 0 0 -1 }\nmesh { file \"m.obj\" }", &ball)
-                         : NULL;
+    Layout *layout = clean && dirty && !ball.failed ? run_layout(run, MESH_SCENE, &ball) : NULL;
     triangles_destroy(&ball);
     u64 random = 31;
     for (u32 i = 0; layout && i < RAYS; i++) {
@@ -77,7 +77,8 @@ static bool at_a_mesh(Run *run)
         score_wrong(&score, hit_number(dirty, i, PROBE_T) !=
                                 (i % 2 ? hit_number(clean, i, PROBE_T) : (f32)INFINITY));
     if (ok)
-        run_add(run, "C30", "half of the rays at a mesh are none", "the others as before", UNIT_WRONG, 0, &score);
+        run_add(run, "C30", "half of the rays at a mesh are none", "the others as before", UNIT_WRONG, 0,
+                &score);
     return ok;
 }
 

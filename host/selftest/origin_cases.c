@@ -201,7 +201,8 @@ static bool contact_shadow(Run *run)
         if (share < 0.99 || share > 1.01)
             score_wrong(&score, isfinite(hit_number(table, i, PROBE_T)) != (share < 1));
     }
-    run_add(run, "C9", "shadow of a sphere of radius 1e-6 where it stands", "closed form", UNIT_WRONG, 0, &score);
+    run_add(run, "C9", "shadow of a sphere of radius 1e-6 where it stands", "closed form", UNIT_WRONG, 0,
+            &score);
     return true;
 }
 

@@ -16,7 +16,8 @@ struct Probe {
     Device *device;
     DeviceShape shape;
     Program *program;
-    Kernel *rays, *numbers;
+    Kernel *numbers;
+    Kernel *rays; // PROBE_ALL
 };
 
 static FeatureSet features_of_probe(void)
@@ -30,16 +31,18 @@ static FeatureSet features_of_probe(void)
     return set;
 }
 
-static bool build(Probe *probe, Error *error)
+static bool build(Probe *probe, ProbeProgram program, Error *error)
 {
+    const bool all = program == PROBE_ALL;
     char options[2048];
     if (render_program_options(features_of_probe(), device_info(probe->device), options, sizeof options) >=
         sizeof options)
         return error_set(error, ERROR_DEVICE, "the options of the self-test are too long");
-    probe->program =
-        program_create(probe->device, clrt_self_test_source, clrt_self_test_source_size, options, error);
+    const char *source = all ? clrt_self_test_source : clrt_known_answers_source;
+    const size_t size = all ? clrt_self_test_source_size : clrt_known_answers_source_size;
+    probe->program = program_create(probe->device, source, size, options, error);
     return probe->program && (probe->numbers = kernel_create(probe->program, "self_test_numbers", error)) &&
-           (probe->rays = kernel_create(probe->program, "self_test_rays", error));
+           (!all || (probe->rays = kernel_create(probe->program, "self_test_rays", error)));
 }
 
 // A launch of each kernel, for the code that drivers generate then.
@@ -57,14 +60,14 @@ static bool warm_up(Probe *probe, Error *error)
         ray_table_add(rays, 0, (f32[3]){0, 0, 0}, (f32[3]){0, 0, 1});
         layout = probe_layout(&none, 1, NULL, error);
         ok = layout && probe_numbers(probe, FUNCTION_SIN, numbers, error) &&
-             probe_rays(probe, layout, (ProbeHow){.mode = PROBE_OWN}, rays, error);
+             (!probe->rays || probe_rays(probe, layout, (ProbeHow){.mode = PROBE_OWN}, rays, error));
     }
     layout_destroy(layout);
     arena_destroy(arena);
     return ok;
 }
 
-Probe *probe_create(Device *device, Error *error)
+Probe *probe_create(Device *device, ProbeProgram program, Error *error)
 {
     Probe *probe = calloc(1, sizeof *probe);
     if (!probe) {
@@ -73,7 +76,7 @@ Probe *probe_create(Device *device, Error *error)
     }
     probe->device = device;
     probe->shape = plan_device_shape(device_info(device));
-    if (build(probe, error) && warm_up(probe, error))
+    if (build(probe, program, error) && warm_up(probe, error))
         return probe;
     probe_destroy(probe);
     return NULL;
@@ -176,7 +179,9 @@ Layout *probe_layout(const Primitive *primitives, u32 count, const MaterialRecor
     const MaterialRecord plain = {.diffuse = {1, 1, 1}, .ior = 1, .inverse_ior = 1, .diffuse_texture = -1};
     Layout *layout = calloc(1, sizeof *layout);
     if (layout) {
-        *layout = (Layout){.primitive_count = count, .frame_count = count, .material_count = 1, .root = NO_INDEX};
+        layout->primitive_count = layout->frame_count = count;
+        layout->material_count = 1;
+        layout->root = NO_INDEX;
         layout->primitives = page_alloc(count * sizeof *layout->primitives);
         layout->infos = page_alloc(count * sizeof *layout->infos);
         layout->frames = page_alloc(count * sizeof *layout->frames);

@@ -69,7 +69,8 @@ bool rim_cases(Run *run)
         if (!judge_rims(run, &shapes[k], k, k < 3 ? &rims : &edges, &normals))
             return false;
     run_add(run, "C33", "rims of cylinders and cones from inside", "closed surfaces", UNIT_LEAKS, 0, &rims);
-    run_add(run, "C39", "edges and corners of boxes and tetrahedra", "closed surfaces", UNIT_LEAKS, 0, &edges);
+    run_add(run, "C39", "edges and corners of boxes and tetrahedra", "closed surfaces", UNIT_LEAKS, 0,
+            &edges);
     run_add(run, "C33", "their normals: length 1", "1", UNIT_ABSOLUTE, 4e-7, &normals);
     return true;
 }

@@ -12,8 +12,8 @@ static void cylinders(Sheet *sheet)
 {
     const Shape closed = {.kind = SHAPE_CYLINDER, .as.cylinder = {{0, 0, 0}, {0, 2, 0}, 1, true}};
     const Shape open = {.kind = SHAPE_CYLINDER, .as.cylinder = {{0, 0, 0}, {0, 2, 0}, 1, false}};
-    sheet_case(sheet, "C32", "cylinder: parallel to the axis in and out, along a cap", "closed form", UNIT_ULP,
-               2);
+    sheet_case(sheet, "C32", "cylinder: parallel to the axis in and out, along a cap", "closed form",
+               UNIT_ULP, 2);
     sheet_shape(sheet, &closed, affine_identity());
     sheet_ray(sheet, (Vec3){0.5, -3, 0}, (Vec3){0, 1, 0}, 3);
     sheet_ray(sheet, (Vec3){1.5, -3, 0}, (Vec3){0, 1, 0}, INFINITY);
@@ -73,7 +73,8 @@ static void tori(Sheet *sheet)
         const f64 z = (f32)HEIGHTS[i / 4], start = STARTS[i % 4];
         sheet_ray(sheet, (Vec3){-start, 0, z}, (Vec3){1, 0, 0}, start - 1 - sqrt(0.0625 - z * z));
     }
-    sheet_case(sheet, "C36", "torus: through the hole, inside the tube, above it", "closed form", UNIT_ULP, 8);
+    sheet_case(sheet, "C36", "torus: through the hole, inside the tube, above it", "closed form", UNIT_ULP,
+               8);
     for (u32 i = 0; i < sizeof AIMS / sizeof AIMS[0]; i++)
         sheet_ray(sheet, AIMS[i].org, AIMS[i].dir, AIMS[i].t);
 }

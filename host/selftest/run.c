@@ -54,7 +54,8 @@ bool run_own(Run *run, const Primitive *primitives, u32 count, RayTable *table)
 static bool mesh_of(Run *run, const TriangleList *triangles, Mesh *mesh)
 {
     const u32 n = triangles->count;
-    *mesh = (Mesh){.positions = triangles->vertices, .position_count = 3 * n, .face_count = n, .part_count = 1};
+    *mesh = (Mesh){
+        .positions = triangles->vertices, .position_count = 3 * n, .face_count = n, .part_count = 1};
     mesh->faces = run_alloc(run, n, sizeof *mesh->faces);
     mesh->parts = run_alloc(run, 1, sizeof *mesh->parts);
     if (!mesh->faces || !mesh->parts)
@@ -69,9 +70,9 @@ Layout *run_layout(Run *run, const char *text, const TriangleList *mesh)
 {
     Mesh own;
     Diagnostics *diagnostics = diagnostics_create();
-    Scene *scene = allocated(run, diagnostics)
-                       ? scene_parse_text("self-test", text, strlen(text), run->arena, diagnostics, run->error)
-                       : NULL;
+    Scene *scene = NULL;
+    if (allocated(run, diagnostics))
+        scene = scene_parse_text("self-test", text, strlen(text), run->arena, diagnostics, run->error);
     bool ok = scene != NULL;
     if (ok && diagnostics_error_count(diagnostics) > 0)
         ok = error_set(run->error, ERROR_SELF_TEST, "a scene of the self-test has errors: %s", text);
@@ -85,6 +86,15 @@ Layout *run_layout(Run *run, const char *text, const TriangleList *mesh)
                 scene->shapes[i].as.mesh.mesh = &own;
     }
     return ok ? layout_create(scene, run->error) : NULL;
+}
+
+bool run_scene(Run *run, const char *text, RayTable *table)
+{
+    Layout *layout = run_layout(run, text, NULL);
+    const ProbeHow how = {.mode = PROBE_HIERARCHY, .steps = 1, .shade = true};
+    const bool ok = layout && probe_rays(run->probe, layout, how, table, run->error);
+    layout_destroy(layout);
+    return ok;
 }
 
 Sheet *sheet_create(Run *run)
@@ -142,7 +152,8 @@ bool sheet_run(Sheet *sheet)
         return false;
     for (u32 row = 0; row < sheet->table->count; row++) {
         const u32 k = sheet->row_case[row];
-        judge_row(&scores[k], sheet->cases[k].unit, sheet->exact[row], hit_number(sheet->table, row, PROBE_T));
+        judge_row(&scores[k], sheet->cases[k].unit, sheet->exact[row],
+                  hit_number(sheet->table, row, PROBE_T));
     }
     for (u32 k = 0; k < sheet->case_count; k++) {
         const SheetCase *c = &sheet->cases[k];

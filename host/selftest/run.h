@@ -1,5 +1,5 @@
-// Run: what the groups of cases share: the probe, memory for one group, the report; and sheets, tables of rays
-// whose distances are known. Private to this module.
+// Run: what the groups of cases share: the probe, memory for one group, the report; and sheets, tables of
+// rays whose distances are known. Private to this module.
 #ifndef CLRT_SELFTEST_RUN_H
 #define CLRT_SELFTEST_RUN_H
 
@@ -10,14 +10,18 @@
 
 typedef struct Run {
     Probe *probe;
+    u32 inputs; // random ones of each case about arithmetic and functions
     Arena *arena; // of the group at hand
     SelfTestReport *report;
     Error *error;
 } Run;
 
 // Groups of cases. Each returns false, with run->error set, where a case could not be run.
-bool arithmetic_cases(Run *run);
+bool arithmetic_cases(Run *run); // these three need the small program only
+bool division_cases(Run *run);   // and what is meant to divide exactly
 bool function_cases(Run *run);
+bool agreed_cases(Run *run);
+bool film_cases(Run *run);
 bool sphere_cases(Run *run);
 bool flat_cases(Run *run);
 bool round_cases(Run *run);
@@ -48,6 +52,9 @@ bool run_own(Run *run, const Primitive *primitives, u32 count, RayTable *table);
 // The layout of a scene of the language, which must be without errors. With `mesh`, the file of its only mesh
 // statement is these triangles. NULL, with the error set, where it cannot be made; the caller's to destroy.
 Layout *run_layout(Run *run, const char *text, const TriangleList *mesh);
+
+// Traces the rays of the table through such a scene, with all that shading knows.
+bool run_scene(Run *run, const char *text, RayTable *table);
 
 // ---- sheets -----------------------------------------------------------------------------------
 

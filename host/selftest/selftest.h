@@ -22,10 +22,15 @@ typedef struct SelfTestReport {
 // such failure.
 bool selftest_run(Device *device, SelfTestReport *report, Error *error);
 
+// The few of them that show what a driver does to arithmetic: less than a second to compile, milliseconds to
+// run. What the device does not promise, exact division, is not asked.
+bool selftest_run_short(Device *device, SelfTestReport *report, Error *error);
+
 // Adds a case to the report.
 void selftest_add(SelfTestReport *report, const SelfTestCase *one);
 
-// False with ERROR_SELF_TEST, and a text that names the cases, where any did not pass or there are none.
+// False with ERROR_SELF_TEST, and a text that names the cases that did not pass, where there are such; also
+// where there are no cases at all.
 bool selftest_verdict(const SelfTestReport *report, Error *error);
 
 #endif

@@ -7,16 +7,6 @@
 
 #define CAMERA "camera { position 0 0 0 look_at 0 0 -1 }\n"
 
-static const ProbeHow SHADED = {.mode = PROBE_HIERARCHY, .steps = 1, .shade = true};
-
-static bool trace_scene(Run *run, const char *text, RayTable *table)
-{
-    Layout *layout = run_layout(run, text, NULL);
-    const bool ok = layout && probe_rays(run->probe, layout, SHADED, table, run->error);
-    layout_destroy(layout);
-    return ok;
-}
-
 // A floor that shines, seen at the mirror angle of a lamp: the highlight is as bright as the lamp, no more.
 static bool highlights(Run *run)
 {
@@ -39,14 +29,15 @@ static bool highlights(Run *run)
             const Vec3 from = {2 * p.x - lamp.x, lamp.y, 2 * p.z - lamp.z};
             ray_table_add_vec(table, 0, from, vec_normalize(vec_sub(p, from)));
         }
-        if (!table || !trace_scene(run, text, table))
+        if (!table || !run_scene(run, text, table))
             return false;
         for (u32 i = 0; i < RAYS; i++) {
             score_absolute(&brightness, 1, hit_number(table, i, PROBE_LIT));
             score_wrong(&above, hit_number(table, i, PROBE_LIT) > 1);
         }
     }
-    run_add(run, "C44", "highlights, exponents to 1e6, at the mirror angle", "1", UNIT_ABSOLUTE, 1e-5, &brightness);
+    run_add(run, "C44", "highlights, exponents to 1e6, at the mirror angle", "1", UNIT_ABSOLUTE, 1e-5,
+            &brightness);
     run_add(run, "C44", "highlights brighter than their lamp", "definition", UNIT_WRONG, 0, &above);
     return true;
 }
@@ -67,7 +58,7 @@ static bool critical_angle(Run *run)
     }
     char text[512];
     snprintf(text, sizeof text, CAMERA GLASS "plane { point 0 -1 0 normal 0 1 0 material m }\n", "");
-    if (!table || !trace_scene(run, text, table))
+    if (!table || !run_scene(run, text, table))
         return false;
     Score verdicts = {0}, lengths = {0};
     for (u32 i = 0; i < RAYS; i++) {
@@ -78,7 +69,8 @@ static bool critical_angle(Run *run)
                                        hit_number(table, i, PROBE_REFLECT_WEIGHT) != (total ? 2 : 1));
         score_absolute(&lengths, 1, vec_length(hit_vector(table, i, PROBE_TRANSMIT)));
     }
-    run_add(run, "C49", "128 floats about the critical cosine: total or not", "double", UNIT_WRONG, 0, &verdicts);
+    run_add(run, "C49", "128 floats about the critical cosine: total or not", "double", UNIT_WRONG, 0,
+            &verdicts);
     run_add(run, "C49", "the directions beyond: length 1", "1", UNIT_ABSOLUTE, 4e-7, &lengths);
     return true;
 }
@@ -94,11 +86,11 @@ static bool plate(Run *run)
         return false;
     ray_table_add_vec(table, 0, (Vec3){0, 0, 0}, (Vec3){sine, -cosine, 0});
     ray_table_add_vec(table, 0, (Vec3){0, 0, 0}, (Vec3){0, -1, 0});
-    if (!trace_scene(run, text, table))
+    if (!run_scene(run, text, table))
         return false;
     const Vec3 p = hit_vector(table, 0, PROBE_P), d = hit_vector(table, 0, PROBE_TRANSMIT);
     ray_table_add_vec(within, 0, (Vec3){p.x, p.y - 1e-3, p.z}, d);
-    if (!trace_scene(run, text, within))
+    if (!run_scene(run, text, within))
         return false;
     Score refraction = {0}, normal = {0};
     score_absolute(&refraction, sin(inner), hit_number(table, 0, PROBE_TRANSMIT));
@@ -111,8 +103,8 @@ static bool plate(Run *run)
     score_absolute(&refraction, sin(asin(sine) - inner) / cos(inner), shift);
     score_absolute(&normal, 0.04, hit_number(table, 1, PROBE_REFLECT_WEIGHT));
     score_absolute(&normal, 0.96, hit_number(table, 1, PROBE_TRANSMIT_WEIGHT));
-    run_add(run, "C50", "plate of index 1.5 at 30 degrees: directions, shift", "closed form", UNIT_ABSOLUTE, 1e-6,
-            &refraction);
+    run_add(run, "C50", "plate of index 1.5 at 30 degrees: directions, shift", "closed form", UNIT_ABSOLUTE,
+            1e-6, &refraction);
     run_add(run, "C50", "straight on: 4 % are reflected", "closed form", UNIT_ABSOLUTE, 1e-6, &normal);
     return true;
 }
@@ -129,7 +121,7 @@ static bool lamp_on_a_floor(Run *run)
     }
     const char *text = CAMERA "light point { position 0 -1 -2 attenuation 0 0 1 }\n"
                               "plane { point 0 -1 0 normal 0 1 0 }\n";
-    if (!table || !trace_scene(run, text, table))
+    if (!table || !run_scene(run, text, table))
         return false;
     Score score = {0};
     for (u32 i = 0; i < RAYS; i++)
@@ -154,7 +146,7 @@ static bool lamp_above_a_floor(Run *run)
             const f64 off = i == 0 ? 0 : random_scale(&random, -9, 1);
             ray_table_add_vec(table, 0, (Vec3){off, 0, -2}, (Vec3){0, -1, 0});
         }
-        if (!table || !trace_scene(run, text, table))
+        if (!table || !run_scene(run, text, table))
             return false;
         // 0.8 of the light, by cosine / distance^2, from the height that floats make of it.
         const f64 height = (f64)(f32)(-1 + HEIGHTS[h]) + 1;

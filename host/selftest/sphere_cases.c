@@ -89,13 +89,15 @@ static void tiny_and_grazed(Sheet *sheet)
     sheet_ray(sheet, (Vec3){outside, 0, -5}, ahead, INFINITY);
 }
 
+// Beyond the range in which squares are floats there is no distance to be had, but no NaN either.
 static void extremes(Sheet *sheet)
 {
-    sheet_case(sheet, "C7", "radius 1e20 and 1e-23: t, or a clean miss", "closed form", UNIT_WRONG, 0);
+    sheet_case(sheet, "C7", "radius 1e20, beyond what floats can square", "no hit", UNIT_WRONG, 0);
     sheet_primitive(sheet, plain_sphere(ORIGIN, 1e20));
     sheet_ray(sheet, (Vec3){0, 0, -3e20}, (Vec3){0, 0, 1}, INFINITY);
+    sheet_case(sheet, "C7", "radius 1e-23: t to within the radius", "closed form", UNIT_RELATIVE, 0.5001);
     sheet_primitive(sheet, plain_sphere(ORIGIN, 1e-23));
-    sheet_ray(sheet, (Vec3){3e-23, 0, -3e-23}, (Vec3){0, 0, 1}, INFINITY);
+    sheet_ray(sheet, (Vec3){0, 0, -3e-23}, (Vec3){0, 0, 1}, 2e-23);
 }
 
 static void starts_and_lengths(Sheet *sheet)

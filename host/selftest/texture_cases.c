@@ -7,15 +7,6 @@
 
 enum { RAYS = 4096 };
 
-static bool trace_scene(Run *run, const char *text, RayTable *table)
-{
-    Layout *layout = run_layout(run, text, NULL);
-    const ProbeHow how = {.mode = PROBE_HIERARCHY, .steps = 1, .shade = true};
-    const bool ok = layout && probe_rays(run->probe, layout, how, table, run->error);
-    layout_destroy(layout);
-    return ok;
-}
-
 static bool is_odd(f64 cell)
 {
     return fmod(fabs(cell), 2) == 1;
@@ -42,7 +33,7 @@ static bool far_checkers(Run *run)
             const f64 z = floor(random_in(&random, -4, 4) * 4096) / 4096;
             ray_table_add_vec(table, 0, (Vec3){x, 0, z}, (Vec3){0, -1, 0});
         }
-        if (!table || !trace_scene(run, text, table))
+        if (!table || !run_scene(run, text, table))
             return false;
         for (u32 i = 0; i < RAYS; i++) {
             const Vec3 o = ray_vector(table, i, PROBE_ORG);
@@ -73,7 +64,7 @@ static bool solid_checkers(Run *run)
             const Vec3 d = {random_in(&random, -2, 2), -1, random_in(&random, -2, 2)};
             ray_table_add_vec(table, 0, (Vec3){0, 0, 0}, vec_normalize(d));
         }
-        if (!table || !trace_scene(run, text, table))
+        if (!table || !run_scene(run, text, table))
             return false;
         for (u32 i = 0; i < RAYS; i++) {
             const Vec3 o = ray_vector(table, i, PROBE_ORG), d = ray_vector(table, i, PROBE_DIR);
@@ -113,7 +104,8 @@ static bool poles_and_seams(Run *run)
         score_absolute(&score, AIMS[i].u, hit_number(table, i, PROBE_U));
         score_absolute(&score, AIMS[i].v, hit_number(table, i, PROBE_V));
     }
-    run_add(run, "C57", "u and v at the poles and the seam of a sphere", "closed form", UNIT_ABSOLUTE, 1e-6, &score);
+    run_add(run, "C57", "u and v at the poles and the seam of a sphere", "closed form", UNIT_ABSOLUTE, 1e-6,
+            &score);
     return true;
 }
 

@@ -1,4 +1,4 @@
-// Triangles of meshes: needles by exact arithmetic, equal ones, ones that are none; and hits that no box hides.
+// Triangles of meshes: needles by exact arithmetic, equal ones, ones that are none; hits that no box hides.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "selftest/random.h"
 #include "selftest/run.h"
 
-static const char MESH_SCENE[] = "mesh { file \"self-test.obj\" }\ncamera { position 0 0 0 look_at 0 0 -1 }";
+static const char MESH_SCENE[] = "mesh { file \"self-test.obj\" }";
 
 // Traces the rays of the table through the mesh alone.
 static bool walk_mesh(Run *run, const TriangleList *mesh, u32 steps, RayTable *table)
@@ -89,7 +89,8 @@ static bool needles(Run *run)
         if (!ok)
             return false;
     }
-    run_add(run, "C18", "needles 1 : 1e-3 to 1 : 1e-12, hit or not", "exact arithmetic", UNIT_WRONG, 0, &score);
+    run_add(run, "C18", "needles 1 : 1e-3 to 1 : 1e-12, hit or not", "exact arithmetic", UNIT_WRONG, 0,
+            &score);
     return true;
 }
 
@@ -101,7 +102,8 @@ static void aim_at_soup(RayTable *table, u32 rays, const TriangleList *soup, u64
     for (u32 i = 0; i < rays; i++) {
         const Vec3 *v = soup->vertices + 3 * (size_t)(random_unit(random) * soup->count);
         const f64 b = random_unit(random), c = i % 3 ? random_unit(random) * (1 - b) : 0;
-        const Vec3 target = vec_add(vec_scale(v[0], 1 - b - c), vec_add(vec_scale(v[1], b), vec_scale(v[2], c)));
+        const Vec3 rest = vec_add(vec_scale(v[1], b), vec_scale(v[2], c));
+        const Vec3 target = vec_add(vec_scale(v[0], 1 - b - c), rest);
         const Vec3 o = random_point(random, i % 5 ? 2 : 0.5);
         Vec3 d = vec_scale(vec_sub(target, o), i % 2 ? 1 : random_scale(random, -3, 3));
         if (i % 11 == 0)
@@ -135,8 +137,8 @@ static bool equal_triangles(Run *run)
             score_wrong(&score, met != COPIES || found_number(table, i, PROBE_FOUND) >= TRIANGLES);
     }
     if (ok)
-        run_add(run, "C21", "12 copies of each of 100 triangles: the first is hit", "order of the file", UNIT_WRONG, 0,
-                &score);
+        run_add(run, "C21", "12 copies of each of 100 triangles: the first is hit", "order of the file",
+                UNIT_WRONG, 0, &score);
     return ok;
 }
 
@@ -166,7 +168,8 @@ static bool spoilt_triangles(Run *run)
     Score score = {0};
     for (u32 i = 0; ok && i < RAYS; i++)
         if (found_number(table, i, PROBE_CROSSINGS) > 0)
-            score_wrong(&score, found_number(table, i, PROBE_FOUND) % 4 != 0 || !isfinite(hit_number(table, i, PROBE_T)));
+            score_wrong(&score, found_number(table, i, PROBE_FOUND) % 4 != 0 ||
+                                    !isfinite(hit_number(table, i, PROBE_T)));
     if (ok)
         run_add(run, "C20", "mesh with faces without area among others", "never hit", UNIT_WRONG, 0, &score);
     return ok;
@@ -188,8 +191,9 @@ static bool compare_with_boxes(Run *run, const Layout *layout, RayTable *table, 
         return false;
     for (u32 i = 0; i < table->count; i++)
         if (isfinite(hit_number(other, i, PROBE_T)))
-            score_wrong(score, hit_number(table, i, PROBE_T) != hit_number(other, i, PROBE_T) ||
-                                   found_number(table, i, PROBE_FOUND) != found_number(other, i, PROBE_FOUND));
+            score_wrong(score,
+                        hit_number(table, i, PROBE_T) != hit_number(other, i, PROBE_T) ||
+                            found_number(table, i, PROBE_FOUND) != found_number(other, i, PROBE_FOUND));
     return true;
 }
 
@@ -210,7 +214,8 @@ static bool boxes_of_soups(Run *run)
         if (!ok)
             return false;
     }
-    run_add(run, "C23", "rays at edges of triangles: hits that boxes hide", "every triangle", UNIT_WRONG, 0, &score);
+    run_add(run, "C23", "rays at edges of triangles: hits that boxes hide", "every triangle", UNIT_WRONG, 0,
+            &score);
     return true;
 }
 
@@ -243,8 +248,8 @@ static bool flat_boxes(Run *run)
     layout_destroy(layout);
     triangles_destroy(&list);
     if (ok)
-        run_add(run, "C24", "squares across the axes: hits that flat boxes hide", "every triangle", UNIT_WRONG, 0,
-                &score);
+        run_add(run, "C24", "squares across the axes: hits that flat boxes hide", "every triangle",
+                UNIT_WRONG, 0, &score);
     return ok;
 }
 
@@ -279,7 +284,8 @@ static bool boxes_of_boxes(Run *run)
     const bool ok = layout && compare_with_boxes(run, layout, table, &score);
     layout_destroy(layout);
     if (ok)
-        run_add(run, "C23", "rays at edges of boxes: hits that boxes hide", "every shape", UNIT_WRONG, 0, &score);
+        run_add(run, "C23", "rays at edges of boxes: hits that boxes hide", "every shape", UNIT_WRONG, 0,
+                &score);
     return ok;
 }
 

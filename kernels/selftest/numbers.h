@@ -1,15 +1,12 @@
-// The functions of base/, texture/ and film on columns of numbers.
+// The functions of base/ on columns of numbers.
 #ifndef CLRT_KERNELS_SELFTEST_NUMBERS_H
 #define CLRT_KERNELS_SELFTEST_NUMBERS_H
 
 #include "base/math.h"
 #include "base/offset.h"
 #include "base/random.h"
+#include "base/vec.h"
 #include "shared/self_test.h"
-#include "stages/trace.h"
-#include "texture/checker.h"
-
-#include "stages/film.h"
 
 static inline v3 column3(global const real *p, uint stride)
 {
@@ -23,22 +20,6 @@ static inline void store_column3(v3 a, global real *p, uint stride)
     VF_STORE(a.z, p + 2 * stride);
 }
 
-// The mean of so many samples of one value, as the film takes it.
-static inline vf mean_of_samples(vf value, vf samples)
-{
-    LanesF x, n;
-    x.v = value;
-    n.v = samples;
-    for (int k = 0; k < LANES; k++) {
-        const uint count = (uint)n.s[k];
-        real high = 0.0f, low = 0.0f;
-        for (uint i = 0; i < count; i++)
-            sum_add(&high, &low, x.s[k]);
-        x.s[k] = (high + low) / (real)count;
-    }
-    return x.v;
-}
-
 // in: of the first of LANES places.
 static inline v3 apply_function(uint function, global const real *in, uint stride)
 {
@@ -49,7 +30,7 @@ static inline v3 apply_function(uint function, global const real *in, uint strid
     case FUNCTION_SIN: r.x = vf_sin(a); break;
     case FUNCTION_COS: r.x = vf_cos(a); break;
     case FUNCTION_ACOS: r.x = vf_acos(a); break;
-    case FUNCTION_ATAN2: r.x = vf_atan2(a, b); break;
+    case FUNCTION_ATAN2: r.x = vf_atan2(b, a); break;
     case FUNCTION_EXP: r.x = vf_exp(a); break;
     case FUNCTION_EXP2: r.x = vf_exp2(a); break;
     case FUNCTION_LOG: r.x = vf_log(a); break;
@@ -61,8 +42,6 @@ static inline v3 apply_function(uint function, global const real *in, uint strid
     case FUNCTION_PRODUCTS: r.x = difference_of_products(a, b, c, d); break;
     case FUNCTION_NORMALIZE: r = v3_normalize(v3_make(a, b, c)); break;
     case FUNCTION_UNIT: r.x = random_unit(VF_AS_VU(a)); break;
-    case FUNCTION_PARITY: r.x = cell_parity(a, b, c, d); break;
-    case FUNCTION_MEAN: r.x = mean_of_samples(a, b); break;
     case FUNCTION_LEAVE:
         r = offset_origin(column3(in, stride), column3(in + 3 * stride, stride),
                           column3(in + 6 * stride, stride), column3(in + 9 * stride, stride));

@@ -1,11 +1,29 @@
 // Rays from memory on the way of a render: intersection or traversal, surface, colour, light, the rays that
-// follow.
+// follow. And sums of the film.
 #ifndef CLRT_KERNELS_SELFTEST_RAYS_H
 #define CLRT_KERNELS_SELFTEST_RAYS_H
 
 #include "selftest/numbers.h"
 #include "stages/shade.h"
 #include "stages/trace.h"
+
+#include "stages/film.h"
+
+// The mean of so many samples of one value, as the film takes it.
+static inline vf mean_of_samples(vf value, vf samples)
+{
+    LanesF x, n;
+    x.v = value;
+    n.v = samples;
+    for (int k = 0; k < LANES; k++) {
+        const uint count = (uint)n.s[k];
+        real high = 0.0f, low = 0.0f;
+        for (uint i = 0; i < count; i++)
+            sum_add(&high, &low, x.s[k]);
+        x.s[k] = (high + low) / (real)count;
+    }
+    return x.v;
+}
 
 static inline void probe_load(global const real *reals, global const int *ints, uint stride, BatchRays *rays,
                               BatchHits *hits)

@@ -1,5 +1,5 @@
-// What the self-test and its kernels agree on: numbers of functions, columns of tables. A table has its columns
-// side by side, `stride` numbers each; a ray or a set of arguments is one place in all of them.
+// What the self-test and its kernels agree on: numbers of functions, columns of tables. A table has its
+// columns side by side, `stride` numbers each; a ray or a set of arguments is one place in all of them.
 #ifndef CLRT_SHARED_SELF_TEST_H
 #define CLRT_SHARED_SELF_TEST_H
 
@@ -10,7 +10,7 @@ enum {
     FUNCTION_SIN,
     FUNCTION_COS,
     FUNCTION_ACOS,
-    FUNCTION_ATAN2, // of the point (b, a)
+    FUNCTION_ATAN2, // of the point (a, b)
     FUNCTION_EXP,
     FUNCTION_EXP2,
     FUNCTION_LOG,
@@ -22,9 +22,8 @@ enum {
     FUNCTION_PRODUCTS,   // difference_of_products(a, b, c, d)
     FUNCTION_NORMALIZE,  // a b c
     FUNCTION_UNIT,       // random_unit of the bits of a
-    FUNCTION_PARITY,     // cell_parity(a, b, c, d)
-    FUNCTION_MEAN,       // of b samples of value a
     FUNCTION_LEAVE,      // where a ray in direction d starts: point, error, normal, d of three numbers each
+    FUNCTION_MEAN,       // of b samples of value a; not among the known answers
     FUNCTION_COUNT
 };
 

@@ -18,14 +18,16 @@ static inline uint pixel_x(uint pixel)
 }
 static inline uint pixel_y(uint pixel) { return pixel_x(pixel >> 1); }
 
-// Adds value to the unevaluated sum high + low without losing what the addition rounds away (Knuth's two-sum;
-// Kahan, "Further remarks on reducing truncation errors", 1965): 2e7 samples of 0.1 still average to 0.1.
+// Adds value to the unevaluated sum high + low without losing what the additions round away: 2e7 samples of 0.1
+// still average to 0.1. Knuth's two-sum, and Dekker's to keep low below half an ulp of high; left to itself low
+// grows until it loses as much as high would.
 static inline void sum_add(real *high, real *low, real value)
 {
     const real sum = *high + value;
     const real from_value = sum - *high;
-    *low += (*high - (sum - from_value)) + (value - from_value);
-    *high = sum;
+    const real rest = *low + ((*high - (sum - from_value)) + (value - from_value));
+    *high = sum + rest;
+    *low = rest - (*high - sum);
 }
 
 // Takes over samples begin .. end - 1 of the tile's pixels, which its slots have finished, into the film (3

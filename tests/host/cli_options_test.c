@@ -172,7 +172,6 @@ static void says_what_comes_later(void **state)
     refused("--aov depth a b", "--aov is not supported yet");
     refused("--part 1/2 a b", "--part is not supported yet");
     refused("--resume a b", "--resume is not supported yet");
-    refused("--self-test a b", "--self-test is not supported yet");
     refused("a b --math", "--math is not supported yet");
 }
 
@@ -183,6 +182,13 @@ static void takes_the_other_actions(void **state)
     assert_int_equal(accepted("--help --frobnicate").action, ACTION_HELP);
     assert_int_equal(accepted("--version").action, ACTION_VERSION);
     assert_int_equal(accepted("-l").action, ACTION_LIST_DEVICES);
+    assert_int_equal(accepted("--self-test").action, ACTION_SELF_TEST);
+    assert_null(accepted("-q -d 0 --self-test").self_test_file);
+    assert_string_equal(accepted("--self-test=t.json").self_test_file, "t.json");
+    refused("--self-test=", "--self-test '': must be a file's name");
+    refused("--self-test a b", "--self-test takes no SCENE");
+    assert_true(accepted("--force-device a b").force_device);
+    assert_false(accepted("a b").force_device);
     assert_true(accepted("--list-devices --json").json);
     assert_int_equal(accepted("--check a").action, ACTION_CHECK);
     assert_null(accepted("--check a").out);

@@ -74,6 +74,10 @@ void answer_destroy(Answer *answer);
 void search_run(const Search *search, const Space *space, bool all, bool any_hit, bool opaque_only, u32 steps,
                 Answer *answer);
 
+// Tells the rays of the space that they start on the faces that they have met in the last search_run, one for
+// closest hits: they now meet what is behind, wherever they start.
+void space_leave_out_faces(const Space *space);
+
 // Turns the rays of the space that have met something in the last search_run, one for closest hits, into rays
 // that start there in random directions.
 void search_bounce(const Search *search, const Space *space, u64 seed);

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+enum { BUNDLE = 32 }; // rays, as many as the largest batches
+
 f32 snapped(u64 *seed, f64 range)
 {
     const f64 x = random_in(seed, -range, range);
@@ -91,33 +93,78 @@ static void normalize(f64 d[3])
         d[k] /= length;
 }
 
+// What the rays of a bundle have in common.
+typedef struct Bundle {
+    f64 org[3], dir[3];
+} Bundle;
+
+static Bundle make_bundle(const Place *place, u64 *seed)
+{
+    Bundle bundle;
+    random_direction(seed, bundle.dir);
+    for (u32 k = 0; k < 3; k++)
+        bundle.org[k] = (f64)place->at[k] - 10 * bundle.dir[k] + random_in(seed, -3, 3);
+    if (random_unit(seed) < 0.3) // along an axis, to edges and faces at halves
+        for (u32 k = 0; k < 3; k++)
+            bundle.dir[k] = fabs(bundle.dir[k]) > 0.58 ? bundle.dir[k] : copysign(0, bundle.dir[k]);
+    return bundle;
+}
+
+// Rays that a packet can take together: about the same way, some of them with an end.
+static void make_bundled(f32 *rays, u32 i, const Place *place, const Bundle *bundle, u64 *seed)
+{
+    f64 dir[3];
+    for (u32 k = 0; k < 3; k++) {
+        const f64 at = bundle->org[k] - (f64)place->at[k] + random_in(seed, -0.5, 0.5);
+        rays[k * RAYS + i] = place->at[k] + (f32)(random_unit(seed) < 0.5 ? floor(2 * at) / 2 : at);
+        dir[k] = bundle->dir[k] * random_in(seed, 0.95, 1.05);
+    }
+    normalize(dir);
+    for (u32 k = 0; k < 3; k++)
+        rays[(3 + k) * RAYS + i] = (f32)dir[k];
+    rays[6 * RAYS + i] = i % 3 ? INFINITY : (f32)random_in(seed, 0, 24);
+}
+
 // A quarter of the rays goes along an axis, another one within a coordinate plane, half of the rest anywhere
 // and the others to the borders of boxes and, where there are meshes, of faces. Half of the coordinates are
 // halves, as are those of half of the shapes, so that rays run along faces and edges.
+static void make_mixed(f32 *rays, u32 i, const Space *space, const Place *place, u64 *seed)
+{
+    f64 dir[3], target[3];
+    random_direction(seed, dir);
+    const int axis = (int)(3 * random_unit(seed));
+    if (i % 8 < 4)
+        dir[axis] = copysign(0, dir[axis]);
+    if (i % 8 < 2)
+        dir[(axis + 1) % 3] = copysign(0, dir[(axis + 1) % 3]);
+    for (u32 k = 0; k < 3; k++)
+        rays[k * RAYS + i] = place->at[k] + snapped(seed, 9);
+    if (i % 8 >= 6) {
+        if (i % 8 == 6 || !random_face_point(space, seed, target))
+            random_box_point(space->layout, seed, target);
+        for (u32 k = 0; k < 3; k++)
+            dir[k] = target[k] - (f64)rays[k * RAYS + i];
+    }
+    normalize(dir);
+    for (u32 k = 0; k < 3; k++)
+        rays[(3 + k) * RAYS + i] = (f32)dir[k];
+    // Most rays have no end; that of the others is where something may just be.
+    rays[6 * RAYS + i] = i % 3 ? INFINITY : (f32)random_in(seed, 0, 12);
+}
+
+// Every third batch is a bundle, so that the ways of packets are taken as well as those of single rays.
 static void make_rays(f32 *rays, i32 *selves, const Space *space, const Place *place, u64 seed)
 {
-    for (u32 i = 0; i < RAYS; i++) {
-        f64 dir[3], target[3];
-        random_direction(&seed, dir);
-        const int axis = (int)(3 * random_unit(&seed));
-        if (i % 8 < 4)
-            dir[axis] = copysign(0, dir[axis]);
-        if (i % 8 < 2)
-            dir[(axis + 1) % 3] = copysign(0, dir[(axis + 1) % 3]);
-        for (u32 k = 0; k < 3; k++)
-            rays[k * RAYS + i] = place->at[k] + snapped(&seed, 9);
-        if (i % 8 >= 6) {
-            if (i % 8 == 6 || !random_face_point(space, &seed, target))
-                random_box_point(space->layout, &seed, target);
-            for (u32 k = 0; k < 3; k++)
-                dir[k] = target[k] - (f64)rays[k * RAYS + i];
+    for (u32 begin = 0; begin < RAYS; begin += BUNDLE) {
+        const bool bundled = begin / BUNDLE % 3 == 2;
+        const Bundle bundle = make_bundle(place, &seed);
+        for (u32 i = begin; i < begin + BUNDLE; i++) {
+            if (bundled)
+                make_bundled(rays, i, place, &bundle, &seed);
+            else
+                make_mixed(rays, i, space, place, &seed);
+            selves[i] = selves[RAYS + i] = -1;
         }
-        normalize(dir);
-        for (u32 k = 0; k < 3; k++)
-            rays[(3 + k) * RAYS + i] = (f32)dir[k];
-        // Most rays have no end; that of the others is where something may just be.
-        rays[6 * RAYS + i] = i % 3 ? INFINITY : (f32)random_in(&seed, 0, 12);
-        selves[i] = selves[RAYS + i] = -1;
     }
 }
 
@@ -131,6 +178,21 @@ void space_aim(const Space *space, const Place *place, u64 seed)
     must(buffer_upload(space->rays, 0, rays, COLUMNS * RAYS * sizeof *rays, &error), &error);
     must(buffer_upload(space->selves, 0, selves, 2 * RAYS * sizeof *selves, &error), &error);
     free(rays);
+    free(selves);
+}
+
+void space_leave_out_faces(const Space *s)
+{
+    Error error = {0};
+    i32 *found = malloc(2 * RAYS * sizeof *found), *selves = malloc(2 * RAYS * sizeof *selves);
+    assert_true(found && selves);
+    must(buffer_download(s->found, 0, found, 2 * RAYS * sizeof *found, &error), &error);
+    for (u32 i = 0; i < RAYS; i++) {
+        selves[i] = found[2 * i] >= 0 && found[2 * i] & FACE ? 2 * found[2 * i] : -1;
+        selves[RAYS + i] = found[2 * i + 1];
+    }
+    must(buffer_upload(s->selves, 0, selves, 2 * RAYS * sizeof *selves, &error), &error);
+    free(found);
     free(selves);
 }
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # kernels.sh BUNDLE SOURCE_DIR: compiles the flattened kernels with clang, warnings as errors, with all
-# features off, all on, and each alone, as a CPU and as a GPU take them. BUNDLE is the clrt-bundle program.
+# features off, all on, and each alone, as a CPU and as a GPU take them; those of the self-test with all on.
+# BUNDLE is the clrt-bundle program.
 # Exit status: 0 clean, 1 complaints, 77 skipped because something is missing.
 set -u
 bundle=$1
@@ -18,6 +19,7 @@ fi
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 "$bundle" "$source/kernels" program.cl "$work/program.cl" || exit 1
+"$bundle" "$source/kernels" selftest/self_test.cl "$work/self_test.cl" || exit 1
 
 features=$(sed -n 's/^ *FEATURE(\([A-Z0-9_]*\),.*/\1/p' "$source/kernels/shared/features.def")
 if [ -z "$features" ]; then
@@ -36,19 +38,22 @@ definitions() {
 }
 
 # Functions and parameters that only some features use are no fault.
-check='"$1" -x cl -cl-std=CL1.2 -fsyntax-only -Xclang -finclude-default-header -Wall -Wextra -Wundef -Werror \
-    -Wno-unused-function -Wno-unused-parameter $3 "$2" 2>"$2.$$.log" ||
-    { echo "with$3"; cat "$2.$$.log"; exit 1; }'
+# A line is the name of a program and its options.
+check='program=${3%% *}; options=${3#* }
+    "$1" -x cl -cl-std=CL1.2 -fsyntax-only -Xclang -finclude-default-header -Wall -Wextra -Wundef -Werror \
+    -Wno-unused-function -Wno-unused-parameter $options "$2/$program" 2>"$2/$$.log" ||
+    { echo "$program with $options"; cat "$2/$$.log"; exit 1; }'
 for machine in "-DLANES=8 -DBATCH=32 -DGROUP=1" "-DLANES=1 -DBATCH=1 -DGROUP=64"; do
-    echo " $machine$(definitions)"
-    echo " $machine$(definitions $features)"
+    echo "program.cl $machine$(definitions)"
+    echo "program.cl $machine$(definitions $features)"
+    echo "self_test.cl $machine$(definitions $features)"
     for feature in $features; do
-        echo " $machine$(definitions "$feature")"
+        echo "program.cl $machine$(definitions "$feature")"
     done
 done >"$work/configurations"
 tr '\n' '\0' <"$work/configurations" |
     xargs -0 -n 1 -P "$(nproc 2>/dev/null || echo 1)" \
-        sh -c "$check" check "$clang" "$work/program.cl" >"$work/log"
+        sh -c "$check" check "$clang" "$work" >"$work/log"
 status=$?
 head -n 100 "$work/log"
 echo "$(wc -l <"$work/configurations") configurations compiled by $clang"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # layers.sh SOURCE_DIR: modules include only themselves and those before them; `kernel void` stands in
-# stages/ only; only main.c and what stands beside it ends the program or handles signals.
+# stages/ only, and in selftest/, which is a program of its own; only main.c and what stands beside it ends
+# the program or handles signals.
 # Exit status: 0 clean, 1 complaints.
 set -u
 cd "$1" || exit 1
@@ -34,24 +35,25 @@ check_order() {
 }
 
 # kernels/shared is common to host and device, bundle is the text of the kernels.
-check_order host "shared bundle" base image scene assets accel layout device render output cli
+check_order host "shared bundle" base image scene assets accel layout device render output selftest cli
 for found in $(includes kernels/shared); do
     [ "${found##*:}" = shared ] || complain "${found%:*}: kernels/shared must not include ${found##*:}/"
 done
-check_order kernels "shared" base shapes accel texture material light stages
+check_order kernels "shared" base shapes accel texture material light stages selftest
 
 for folder in host/*/ kernels/*/; do
     case " host/base/ host/image/ host/scene/ host/assets/ host/accel/ host/layout/ host/device/ \
-host/render/ host/output/ host/cli/ kernels/shared/ kernels/base/ kernels/shapes/ \
-kernels/accel/ kernels/texture/ kernels/material/ kernels/light/ kernels/stages/ " in
+host/render/ host/output/ host/selftest/ host/cli/ kernels/shared/ kernels/base/ kernels/shapes/ \
+kernels/accel/ kernels/texture/ kernels/material/ kernels/light/ kernels/stages/ \
+kernels/selftest/ " in
         *" $folder "*) ;;
         *) complain "$folder: has no place in the order of tools/lint/layers.sh" ;;
     esac
 done
 
 found=$(grep -rnE '\bkernel[[:space:]]+void\b' kernels --include='*.h' --include='*.cl' |
-    grep -vE '^kernels/stages/|^[^:]*:[0-9]*:[[:space:]]*//')
-[ -z "$found" ] || complain "kernel void outside kernels/stages:
+    grep -vE '^kernels/(stages|selftest)/|^[^:]*:[0-9]*:[[:space:]]*//')
+[ -z "$found" ] || complain "kernel void outside kernels/stages and kernels/selftest:
 $found"
 
 ending='\b(_?exit|_Exit|quick_exit|abort|atexit|signal|sigaction|sigwait) *\('
