@@ -2,6 +2,8 @@
 // on every device.
 #include "base_support.h"
 
+#include "selftest/agreed.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -93,36 +95,7 @@ static void power_of_a_cosine_is_at_most_one(void **state)
     kernel_program_destroy(program);
 }
 
-// Bit patterns from all over the floats; denormal ones, which devices may flush, become zeros.
-static void fill_with_patterns(Batch *batch)
-{
-    for (uint32_t i = 0; i < BATCH; i++) {
-        // One half any pattern, the other of moderate size, where the functions have something to say.
-        const uint32_t any = i * 4093u, other = mix(i);
-        const float x = from_bits(i & 1u ? any : (any & 0x87ffffffu) | 0x38000000u);
-        const float y = from_bits(i & 2u ? other : (other & 0x87ffffffu) | 0x38000000u);
-        batch->x[i] = fabsf(x) < FLT_MIN ? 0.0f : x;
-        batch->y[i] = fabsf(y) < FLT_MIN ? 0.0f : fabsf(y);
-    }
-}
-
-// FNV-1a over the bits of the results, all NaN alike.
-static uint64_t hash_results(const Batch *batch)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < BATCH; i++) {
-        const uint32_t bits = isnan(batch->result[i]) ? 0x7fc00000u : bits_of(batch->result[i]);
-        for (int byte = 0; byte < 4; byte++)
-            hash = (hash ^ (bits >> 8 * byte & 0xffu)) * 0x100000001b3u;
-    }
-    return hash;
-}
-
-// What every device must give; only a deliberate change of a function changes its number.
-static const uint64_t agreed_hashes[FUNCTIONS] = {
-    0xac5a70a86a6d8fe6, 0xc0c2cec040300fd3, 0x816e730551a8fbea, 0x0fec86e1287d0b74, 0xdb4e49464f68157c,
-    0x0569891f19897bf4, 0xd0d6512a43ef94ff, 0xaf23c84feb78e457, 0xc6fc2b9f9e3d0b35,
-};
+_Static_assert((int)BATCH == (int)AGREED_INPUTS && (int)FUNCTIONS == (int)AGREED_FUNCTIONS, "the same tables");
 
 static int differences_from_agreed(KernelDevice *device, int lanes, const char *options, Batch *batch)
 {
@@ -130,8 +103,8 @@ static int differences_from_agreed(KernelDevice *device, int lanes, const char *
     KernelProgram *program = functions_create(device, lanes, options);
     for (Function function = 0; function < FUNCTIONS; function++) {
         functions_apply(program, function, lanes, batch);
-        const uint64_t hash = hash_results(batch);
-        if (hash == agreed_hashes[function])
+        const u64 hash = agreed_hash(batch->result);
+        if (hash == AGREED_HASHES[function])
             continue;
         printf("%s with %d lanes %s: 0x%016llx\n", function_names[function], lanes, options ? options : "",
                (unsigned long long)hash);
@@ -144,7 +117,7 @@ static int differences_from_agreed(KernelDevice *device, int lanes, const char *
 static void bits_agree_for_all_lanes_and_devices(void **state)
 {
     Batch *batch = batch_create();
-    fill_with_patterns(batch);
+    agreed_fill(batch->x, batch->y);
     int differences = differences_from_agreed(*state, 8, "-cl-denorms-are-zero", batch);
     for (size_t w = 0; w < WIDTHS; w++)
         differences += differences_from_agreed(*state, widths[w], NULL, batch);

@@ -16,7 +16,7 @@ static const f64 rounding = 0x1p-24;
 static TriangleList needles_make(u32 count, int axis, u64 *random)
 {
     static const f64 shapes[][2] = {{1, 1e-7}, {1e3, 1e-4}, {1e3, 1e-3}, {1, 1e-3}, {1, 1e-12}};
-    TriangleList list = {NULL, 0, 0};
+    TriangleList list = {.vertices = NULL};
     for (u32 i = 0; i < count; i++) {
         const f64 *shape = shapes[i % (sizeof shapes / sizeof *shapes)];
         const f64 angle = random_in(random, 0, 2 * acos(-1)), c = cos(angle), s = sin(angle);

@@ -94,7 +94,7 @@ static void spoilt_faces_are_never_hit(void **state)
 // pbrt-v4, src/pbrt/shapes_test.cpp, Triangle.BadCases: corners on a line.
 static void a_line_is_not_hit(void **state)
 {
-    TriangleList list = {NULL, 0, 0};
+    TriangleList list = {.vertices = NULL};
     triangles_add(&list, (Vec3){-1113.45459, -79.049614, -56.2431908},
                   (Vec3){-1113.45459, -87.0922699, -56.2431908},
                   (Vec3){-1113.45459, -79.2090149, -56.2431908});

@@ -223,17 +223,3 @@ u32 leak_rays(u32 standard)
         fail_msg("CLRT_LEAK_RAYS=%s is not a number of rays", text);
     return (u32)wish;
 }
-
-f64 random_unit(u64 *state)
-{
-    *state += 0x9e3779b97f4a7c15u;
-    u64 x = *state;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (f64)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
-f64 random_in(u64 *state, f64 low, f64 high)
-{
-    return low + (high - low) * random_unit(state);
-}

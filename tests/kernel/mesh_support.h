@@ -5,23 +5,13 @@
 #include "harness.h"
 
 #include "layout/layout.h"
+#include "selftest/random.h"
+#include "selftest/surfaces.h"
 
-// Triangles, each with three positions of its own; equal positions stay equal wherever the mesh is placed.
-typedef struct TriangleList {
-    Vec3 *vertices;
-    u32 count, capacity; // of triangles
-} TriangleList;
-
-void triangles_add(TriangleList *list, Vec3 a, Vec3 b, Vec3 c);
-void triangles_destroy(TriangleList *list);
-// Closed surfaces about the origin.
-TriangleList triangles_icosphere(int levels);              // 20 * 4^levels, on the unit sphere
-TriangleList triangles_bumpy(int levels);                  // the same with bumps and dents, radius 0.5 to 1.5
-TriangleList triangles_cube(void);                         // 12, [-1, 1]^3
-TriangleList triangles_spindle(u32 slices, u32 rings);     // an ellipsoid of long thin triangles, radius 1
-TriangleList triangles_voxels(int radius, f64 cell);       // faces of the cells within a sphere, on a grid
-// Of any kind within two units of the origin; thin: needles of all widths.
-TriangleList triangles_soup(u32 count, bool thin, u64 *random);
+// Closed surfaces about the origin beside those of selftest/surfaces.h.
+TriangleList triangles_bumpy(u32 levels);              // triangles_icosphere with bumps, radius 0.5 to 1.5
+TriangleList triangles_cube(void);                     // 12, [-1, 1]^3
+TriangleList triangles_spindle(u32 slices, u32 rings); // an ellipsoid of long thin triangles, radius 1
 
 // The world is this mesh under the transform; render space is the world's. With `instanced` it stands in an
 // object, itself as it is, placed by an instance with the transform.
@@ -68,9 +58,5 @@ double walk(KernelProgram *program, Variant variant, const Layout *layout, u32 s
 
 // Rays of a long run, by CLRT_LEAK_RAYS; else `standard`.
 u32 leak_rays(u32 standard);
-
-// Uniform in [0, 1), and in a range; *state is any number.
-f64 random_unit(u64 *state);
-f64 random_in(u64 *state, f64 low, f64 high);
 
 #endif

@@ -1,28 +1,7 @@
-// Triangles of any kind anywhere, and rays at them.
+// Rays at triangles of any kind.
 #include "mesh_support.h"
 
 #include <math.h>
-
-static Vec3 random_point(u64 *random, f64 range)
-{
-    const f64 x = random_in(random, -range, range), y = random_in(random, -range, range);
-    return (Vec3){x, y, random_in(random, -range, range)};
-}
-
-TriangleList triangles_soup(u32 count, bool thin, u64 *random)
-{
-    TriangleList list = {NULL, 0, 0};
-    for (u32 i = 0; i < count; i++) {
-        const Vec3 a = random_point(random, 1), side = random_point(random, 1);
-        const f64 size = pow(10, random_in(random, -3, 0.3));
-        const Vec3 b = vec_add(a, vec_scale(random_point(random, 1), size));
-        const Vec3 c = thin ? vec_add(a, vec_add(vec_scale(vec_sub(b, a), random_unit(random)),
-                                                 vec_scale(side, size * pow(10, random_in(random, -7, -2)))))
-                            : vec_add(a, vec_scale(side, size));
-        triangles_add(&list, a, b, c);
-    }
-    return list;
-}
 
 void rays_aim_at_soup(Rays *rays, const FaceTable *faces, f64 size, Vec3 center, u64 *random)
 {

@@ -1,6 +1,8 @@
 // No ray slips through where surfaces join, and none counts a shared edge twice.
 #include "shapes_support.h"
 
+#include "selftest/surfaces.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,45 +10,6 @@
 enum { LANES = 8, ICO_TRIANGLES = 1280 };
 
 // ---- a closed mesh ----------------------------------------------------------------------------
-
-typedef struct Ball {
-    Vec3 triangle[ICO_TRIANGLES][3]; // on the unit sphere
-    size_t count;
-} Ball;
-
-static void ball_split(Ball *ball, Vec3 a, Vec3 b, Vec3 c, int levels)
-{
-    if (levels == 0) {
-        Vec3 *t = ball->triangle[ball->count++];
-        t[0] = a;
-        t[1] = b;
-        t[2] = c;
-        return;
-    }
-    const Vec3 ab = vec_normalize(vec_add(a, b)), bc = vec_normalize(vec_add(b, c));
-    const Vec3 ca = vec_normalize(vec_add(c, a));
-    ball_split(ball, a, ab, ca, levels - 1);
-    ball_split(ball, ab, b, bc, levels - 1);
-    ball_split(ball, ca, bc, c, levels - 1);
-    ball_split(ball, ab, bc, ca, levels - 1);
-}
-
-static void ball_make(Ball *ball)
-{
-    static const int faces[20][3] = {
-        {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1},
-    };
-    const double g = (1 + sqrt(5)) / 2;
-    const Vec3 v[12] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                        {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-    ball->count = 0;
-    for (int i = 0; i < 20; ++i)
-        ball_split(ball, vec_normalize(v[faces[i][0]]), vec_normalize(v[faces[i][1]]),
-                   vec_normalize(v[faces[i][2]]), 3);
-    assert_int_equal(ball->count, ICO_TRIANGLES);
-}
 
 static float vertex_part(const Primitive *p, int vertex, int axis)
 {
@@ -92,9 +55,9 @@ static void meshes_are_tight(void **state)
         {100, {148376, 1234, -223423}, 51200, true},
         {1, {1e6, 0, 1e6}, 51200, false},
     };
-    static Ball ball;
     static Primitive mesh[ICO_TRIANGLES];
-    ball_make(&ball);
+    TriangleList ball = triangles_icosphere(3);
+    assert_int_equal(ball.count, ICO_TRIANGLES);
     KernelProgram *program = shapes_program_alone(*state, PRIMITIVE_TRIANGLE, LANES);
     print_message("radius    centre                 rays    leaks  counted twice\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
@@ -104,7 +67,7 @@ static void meshes_are_tight(void **state)
             Shape s = {.kind = SHAPE_TRIANGLE};
             BakedBounds bounds;
             Error error;
-            memcpy(s.as.triangle.vertices, ball.triangle[i], sizeof ball.triangle[i]);
+            memcpy(s.as.triangle.vertices, ball.vertices + 3 * i, 3 * sizeof *ball.vertices);
             assert_true(bake_shape(&s, &map, &mesh[i], &bounds, &error));
         }
         RayTable table = ray_table_create(shapes_long_run() ? cases[k].rays : cases[k].rays / 8);
@@ -124,6 +87,7 @@ static void meshes_are_tight(void **state)
         free(met);
         ray_table_destroy(&table);
     }
+    triangles_destroy(&ball);
     kernel_program_destroy(program);
 }
 
