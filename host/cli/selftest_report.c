@@ -1,9 +1,10 @@
 #include "cli/selftest_report.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
+
+#include "cli/json_file.h"
 
 // "0.37 ulp"; as many digits as say something.
 static void format_amount(char *text, size_t size, f64 amount, Unit unit)
@@ -79,15 +80,5 @@ static json_t *to_json(const SelfTestReport *report, const DeviceInfo *device)
 bool selftest_write_json(const SelfTestReport *report, const DeviceInfo *device, const char *path,
                          Error *error)
 {
-    json_t *all = to_json(report, device);
-    if (!all)
-        return error_set(error, ERROR_MEMORY, "no memory for the report of the self-test");
-    FILE *file = fopen(path, "w");
-    bool ok = file && json_dumpf(all, file, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
-    json_decref(all);
-    if (file) {
-        fputc('\n', file);
-        ok = fclose(file) == 0 && ok;
-    }
-    return ok || error_set(error, ERROR_IO, "%s: %s", path, strerror(errno));
+    return json_file_write(to_json(report, device), path, "the report of the self-test", error);
 }

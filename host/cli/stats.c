@@ -1,9 +1,10 @@
 #include "cli/stats.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <string.h>
 #include <sys/resource.h>
+
+#include "cli/json_file.h"
 
 static const f64 MIB = 1024.0 * 1024.0;
 
@@ -102,15 +103,5 @@ static json_t *to_json(const RunStats *stats)
 
 bool stats_write_json(const RunStats *stats, const char *path, Error *error)
 {
-    json_t *all = to_json(stats);
-    if (!all)
-        return error_set(error, ERROR_MEMORY, "no memory for the statistics");
-    FILE *file = fopen(path, "w");
-    bool ok = file && json_dumpf(all, file, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
-    json_decref(all);
-    if (file) {
-        fputc('\n', file);
-        ok = fclose(file) == 0 && ok;
-    }
-    return ok || error_set(error, ERROR_IO, "%s: %s", path, strerror(errno));
+    return json_file_write(to_json(stats), path, "the statistics", error);
 }

@@ -120,11 +120,16 @@ static inline void push_sorted(const Hierarchy *scene, Stack *stack, int bottom,
     stack->near[at] = near;
 }
 
-static inline bool pop(Stack *stack, uint alive, Visit *visit)
+// The next entry that rays of alive still want.
+static inline bool pop(Stack *stack, const BatchHits *hits, uint alive, Visit *visit)
 {
     while (stack->size > 0) {
         visit->node = stack->node[--stack->size];
         visit->mask = stack->mask[stack->size] & alive;
+#if BATCH == 1
+        if (stack->near[stack->size] > hits->tfar[0] * BOX_SLACK)
+            continue;
+#endif
         if (visit->mask)
             return true;
     }
@@ -133,8 +138,8 @@ static inline bool pop(Stack *stack, uint alive, Visit *visit)
 
 // Pushes the children of a node, `enters` and `masks` by slot, of which `reached` are meant; on top is the
 // nearest or, where any hit will do, the first.
-static inline void push_children(const Hierarchy *scene, global const BvhNode *node, uint reached, const Int8 *masks, const Float8 *enters,
-                                 Stack *stack, bool any_hit)
+static inline void push_children(const Hierarchy *scene, global const BvhNode *node, uint reached,
+                                 const Int8 *masks, const Float8 *enters, Stack *stack, bool any_hit)
 {
     const int bottom = any_hit ? UNSORTED : stack->size;
     while (reached) {
@@ -144,8 +149,8 @@ static inline void push_children(const Hierarchy *scene, global const BvhNode *n
 }
 
 #if LANES > 1
-static inline void descend_packet(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, const BatchHits *hits,
-                                  uint mask, Stack *stack, bool any_hit)
+static inline void descend_packet(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space,
+                                  const BatchHits *hits, uint mask, Stack *stack, bool any_hit)
 {
     Float8 enters;
     const int bottom = any_hit ? UNSORTED : stack->size;
@@ -159,8 +164,8 @@ static inline void descend_packet(const Hierarchy *scene, global const BvhNode *
 #endif
 
 // One ray after the other: what it costs goes with their number.
-static inline void descend_rays(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, const BatchHits *hits,
-                                uint mask, Stack *stack, bool any_hit)
+static inline void descend_rays(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space,
+                                const BatchHits *hits, uint mask, Stack *stack, bool any_hit)
 {
     Int8 masks;
     Float8 enters;
@@ -178,8 +183,8 @@ static inline void descend_rays(const Hierarchy *scene, global const BvhNode *no
 }
 
 // Pushes the children of a node that rays of mask reach.
-static inline void descend(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space, BatchHits *hits, uint mask,
-                           Stack *stack, bool any_hit)
+static inline void descend(const Hierarchy *scene, global const BvhNode *node, const BatchSpace *space,
+                           BatchHits *hits, uint mask, Stack *stack, bool any_hit)
 {
     COUNT_NODE(hits, popcount(mask));
 #if LANES > 1
@@ -208,49 +213,6 @@ static inline uint test_leaf(const Hierarchy *scene, const BatchRays *rays, cons
     return 0;
 }
 
-#if BATCH == 1
-// The walk of one ray; returns 1 where it was stopped and any hit will do.
-static inline uint walk(const Hierarchy *scene, const BatchRays *rays, const BatchSpace *space,
-                        BatchHits *hits, uint mask, int root, int instance, bool any_hit, bool opaque_only)
-{
-    int nodes[STACK_SIZE];
-    real nears[STACK_SIZE];
-    int size = 0;
-    Visit visit;
-    visit.node = root;
-    visit.mask = mask;
-    for (;;) {
-        if (visit.node >= 0) {
-            global const BvhNode *node = &scene->nodes[visit.node];
-            Float8 enters;
-            COUNT_NODE(hits, 1);
-            uint reached = sign_bits8(test_boxes(node, &space->slabs, 0, hits->tfar[0], &enters.v));
-            const int bottom = any_hit ? UNSORTED : size;
-            while (reached) {
-                const int slot = next_slot(&reached, any_hit);
-                const real near = enters.s[slot];
-                int at = size++;
-                prefetch_child(scene, node->child[slot]);
-                for (; at > bottom && nears[at - 1] < near; at--) {
-                    nodes[at] = nodes[at - 1];
-                    nears[at] = nears[at - 1];
-                }
-                nodes[at] = node->child[slot];
-                nears[at] = near;
-            }
-        } else if (test_leaf(scene, rays, space, hits, visit, instance, opaque_only) && any_hit) {
-            return 1;
-        }
-        const real end = hits->tfar[0] * BOX_SLACK;
-        do {
-            if (size == 0)
-                return 0;
-            size--;
-        } while (nears[size] > end);
-        visit.node = nodes[size];
-    }
-}
-#else
 // The walk of a batch; returns the rays that were stopped, where any hit will do.
 static inline uint walk(const Hierarchy *scene, const BatchRays *rays, const BatchSpace *space,
                         BatchHits *hits, uint mask, int root, int instance, bool any_hit, bool opaque_only)
@@ -269,10 +231,9 @@ static inline uint walk(const Hierarchy *scene, const BatchRays *rays, const Bat
             if (any_hit)
                 alive &= ~found;
         }
-    } while (pop(&stack, alive, &visit));
+    } while (pop(&stack, hits, alive, &visit));
     return mask & ~alive;
 }
-#endif
 
 // Walks the hierarchy of one object, or of the whole scene where nothing is instanced. Returns the rays that
 // were stopped, where any hit will do.
@@ -341,7 +302,7 @@ static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays,
             found = test_leaf(scene, rays, &space, hits, visit, NO_HIT, opaque_only);
         if (any_hit)
             alive &= ~found;
-    } while (pop(&stack, alive, &visit));
+    } while (pop(&stack, hits, alive, &visit));
 }
 #else
 static inline void traverse_scene(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
