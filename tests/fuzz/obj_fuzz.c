@@ -116,3 +116,5 @@ int LLVMFuzzerTestOneInput(const u8 *data, size_t size)
     fuzz_file_end(&file);
     return 0;
 }
+
+#include "fuzz_main.h"

@@ -51,23 +51,4 @@ int LLVMFuzzerTestOneInput(const u8 *data, size_t size)
     return 0;
 }
 
-#ifndef CLRT_FUZZ
-#include "base/file.h"
-
-int main(int argc, char **argv)
-{
-    for (int i = 1; i < argc; ++i) {
-        Arena *arena = arena_create();
-        FileContent content;
-        Error error;
-        if (!arena || !file_read(argv[i], false, arena, &content, &error)) {
-            fprintf(stderr, "%s: cannot be read\n", argv[i]);
-            return 2;
-        }
-        LLVMFuzzerTestOneInput((const u8 *)content.text, content.length);
-        printf("%s: %zu bytes\n", argv[i], content.length);
-        arena_destroy(arena);
-    }
-    return 0;
-}
-#endif
+#include "fuzz_main.h"
