@@ -1,6 +1,7 @@
 #include "picture.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "assets/assets.h"
 #include "base/clock.h"
@@ -185,9 +186,9 @@ static bool report(Picture *picture, const Render *render, Error *error)
     return true;
 }
 
-static bool render_picture(Picture *picture, Error *error)
+static RenderJob render_job(const Picture *picture)
 {
-    const RenderJob job = {
+    return (RenderJob){
         .layout = picture->layout,
         .device = picture->device,
         .left = picture->left,
@@ -196,10 +197,72 @@ static bool render_picture(Picture *picture, Error *error)
         .height = picture->height,
         .memory_limit = picture->options->memory,
     };
+}
+
+static bool render_picture(Picture *picture, Error *error)
+{
+    const RenderJob job = render_job(picture);
     Render *render = render_create(&job, error);
     const bool ok = render && write_rows(picture, render, error) && close_output(picture, error) &&
                     report(picture, render, error);
     render_destroy(render);
+    return ok;
+}
+
+// Positions leave render space, whose origin is the camera.
+static void place_rows(const Picture *picture, f32 *rgb, u64 pixels)
+{
+    const Vec3 origin = picture->scene->camera.position;
+    for (u64 i = 0; i < pixels; i++) {
+        rgb[3 * i] = (f32)(rgb[3 * i] + origin.x);
+        rgb[3 * i + 1] = (f32)(rgb[3 * i + 1] + origin.y);
+        rgb[3 * i + 2] = (f32)(rgb[3 * i + 2] + origin.z);
+    }
+}
+
+// OUT without its suffix, then the name of the property.
+static bool aov_path(const Picture *picture, u32 aov, char *path, size_t size, Error *error)
+{
+    const char *out = picture->options->out, *folder = strrchr(out, '/'), *suffix = strrchr(out, '.');
+    const bool named = suffix && suffix > (folder ? folder + 1 : out);
+    const int length = snprintf(path, size, "%.*s.%s.pfm", named ? (int)(suffix - out) : (int)strlen(out), out,
+                                aov_name(aov));
+    return (length >= 0 && (size_t)length < size) || error_set(error, ERROR_IO, "%s: the name is too long", out);
+}
+
+static bool render_aov(Picture *picture, u32 aov, Error *error)
+{
+    char path[4096];
+    const OutputOptions format = {.settings = picture->scene->output, .bits = picture->options->bits};
+    if (!aov_path(picture, aov, path, sizeof path, error))
+        return false;
+    picture->output = output_open(path, &format, picture->width, picture->height, error);
+    if (!picture->output)
+        return false;
+    interrupt_set_temporary(picture->interrupt, output_temporary_path(picture->output));
+    RenderJob job = render_job(picture);
+    job.aov = aov;
+    Render *render = render_create(&job, error);
+    bool ok = render != NULL;
+    while (ok && !render_finished(render)) {
+        RenderRows rows;
+        ok = render_step(render, &rows, error);
+        if (ok && aov == AOV_POSITION)
+            place_rows(picture, rows.rgb, (u64)rows.count * picture->width);
+        ok = ok && (rows.count == 0 || output_write_rows(picture->output, rows.rgb, rows.count, error));
+        if (ok && interrupt_requested(picture->interrupt))
+            ok = error_set(error, ERROR_INTERRUPTED, "interrupted");
+    }
+    render_destroy(render);
+    return ok && close_output(picture, error);
+}
+
+static bool render_aovs(Picture *picture, Error *error)
+{
+    bool ok = true;
+    for (u32 aov = AOV_NONE + 1; ok && aov < AOV_COUNT; aov++)
+        if (picture->options->aovs >> aov & 1)
+            ok = render_aov(picture, aov, error);
     return ok;
 }
 
@@ -210,7 +273,7 @@ bool picture_make(const Options *options, Interrupt *interrupt, Error *error)
     bool ok = (check || choose_device(&picture, error)) && load_scene(&picture, error);
     if (ok && !check)
         ok = open_output(&picture, error) && lay_out(&picture, error) && open_device(&picture, error) &&
-             render_picture(&picture, error);
+             render_picture(&picture, error) && render_aovs(&picture, error);
     output_abort(picture.output);
     interrupt_set_temporary(interrupt, NULL);
     device_close(picture.device);

@@ -155,6 +155,8 @@ static void check_together(Reader *reader)
         mistake(reader, options->action == ACTION_CHECK ? "SCENE is missing" : "SCENE and OUT are missing");
     else if (!options->out && options->action == ACTION_RENDER)
         mistake(reader, "OUT is missing");
+    else if (options->aovs && options->out && strcmp(options->out, "-") == 0)
+        mistake(reader, "--aov needs a file's name for OUT");
 }
 
 bool options_parse(int argc, char **argv, Options *options, Error *error)

@@ -38,6 +38,7 @@ typedef struct Options {
     f64 white;                        // with TONE_MAP_REINHARD_EXTENDED
     u32 bits;                         // 8 or 16
     bool bits_given;
+    u32 aovs;   // bit AOV_X for each that is asked for
     u64 memory; // bytes, 0: not given
     u32 threads; // 0: not given
     bool stats;

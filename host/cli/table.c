@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "render/aov.h"
 
 enum {
     SIZE_MAX_PIXELS = 65536,
@@ -151,6 +152,20 @@ static const char *take_tone_map(Options *options, const char *value)
     return "none, reinhard, reinhard_extended,WHITE (above 0), aces or hable";
 }
 
+static const char *take_aov(Options *options, const char *value)
+{
+    for (const char *name = value;; name++) {
+        const size_t length = strcspn(name, ",");
+        const u32 aov = aov_find(name, length);
+        if (aov == AOV_NONE)
+            return "a list of depth, normal, position, albedo, id, with commas between";
+        options->aovs |= 1u << aov;
+        name += length;
+        if (!*name)
+            return NULL;
+    }
+}
+
 static const char *take_check(Options *options, const char *value)
 {
     (void)value;
@@ -230,6 +245,8 @@ const Option OPTIONS[] = {
     {0, "exposure", VALUE_REQUIRED, "EV", GROUP_OUTPUT, "stops [the scene's]", take_exposure},
     {0, "tone-map", VALUE_REQUIRED, "NAME", GROUP_OUTPUT,
      "none, reinhard, reinhard_extended,WHITE, aces, hable [the scene's]", take_tone_map},
+    {0, "aov", VALUE_REQUIRED, "LIST", GROUP_OUTPUT,
+     "also depth, normal, position, albedo, id of first hits, each in OUT.NAME.pfm", take_aov},
     {0, "check", VALUE_NONE, NULL, GROUP_RUN, "read and check SCENE and its meshes only; needs no device", take_check},
     {0, "stats", VALUE_OPTIONAL, "FILE.json", GROUP_RUN, "times, rays and memory, on stderr or into the file",
      take_stats},
@@ -241,7 +258,6 @@ const Option OPTIONS[] = {
     {0, "error", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "confidence", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "time", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
-    {0, "aov", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "part", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "resume", VALUE_NONE, NULL, GROUP_LATER, NULL, NULL},
 };

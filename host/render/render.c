@@ -12,13 +12,15 @@
 
 struct Render {
     RenderJob job;
+    Layout layout; // the job's, with the features and samples that are asked for; owns nothing
     Plan plan;
     RenderParams params;
     Program *program;
     Kernel *kernel;
     Buffer *scene[LAYOUT_ARRAYS]; // those that the program does not need are NULL
-    Buffer *params_buffer, *state_reals, *state_ints, *film, *film_low, *ray_counts;
+    Buffer *params_buffer, *state_reals, *state_ints, *film, *film_low, *film_m2, *ray_counts;
     f32 *rows;
+    f32 *m2; // NULL where there is one sample
     u32 *counts;
     u32 band_top;         // rows of the crop that are complete
     u32 samples_done;     // of the band in hand
@@ -51,7 +53,7 @@ static bool add_scene(Render *render, Error *error)
 {
     Device *device = render->job.device;
     LayoutArray arrays[LAYOUT_ARRAYS];
-    layout_arrays(render->job.layout, arrays);
+    layout_arrays(&render->layout, arrays);
     for (u32 i = 0; i < LAYOUT_ARRAYS; i++) {
         const LayoutArray *array = &arrays[i];
         if (!kernel_has(render->kernel, array->name))
@@ -88,6 +90,7 @@ static bool add_work_buffers(Render *render, Error *error)
                       error) &&
            add_buffer(render, &render->film, "film", film, error) &&
            add_buffer(render, &render->film_low, "film_low", film, error) &&
+           add_buffer(render, &render->film_m2, "film_m2", m2, error) &&
            add_buffer(render, &render->ray_counts, "ray_counts",
                       items * RAYS_KINDS * sizeof *render->counts, error) &&
            kernel_set_u32(kernel, "state_real_fields", plan->real_fields, error) &&
@@ -99,22 +102,27 @@ static bool add_work_buffers(Render *render, Error *error)
 static void set_params(Render *render)
 {
     const RenderJob *job = &render->job;
-    render->params = job->layout->params;
+    render->params = render->layout.params;
     render->params.left = job->left;
     render->params.top = job->top;
     render->params.crop_width = job->width;
     render->params.crop_height = job->height;
     render->params.lights_per_pass = render->plan.lights_per_pass;
     render->params.slots_log2 = render->plan.slots_log2;
+    render->params.aov = job->aov;
 }
 
 static bool build(Render *render, Error *error)
 {
     const RenderJob *job = &render->job;
+    static const char only_aov[] = " -DAOV=1";
     char options[2048];
-    if (render_program_options(job->layout->features, device_info(job->device), options, sizeof options) >=
-        sizeof options)
+    const size_t length =
+        render_program_options(render->layout.features, device_info(job->device), options, sizeof options);
+    if (length + sizeof only_aov > sizeof options)
         return error_set(error, ERROR_DEVICE, "the options of the program are too long");
+    if (job->aov != AOV_NONE)
+        memcpy(options + length, only_aov, sizeof only_aov);
     const f64 start = clock_seconds();
     render->program =
         program_create(job->device, clrt_kernel_source, clrt_kernel_source_size, options, error);
@@ -153,7 +161,10 @@ Render *render_create(const RenderJob *job, Error *error)
         return NULL;
     }
     render->job = *job;
-    bool ok = plan_make(&render->plan, job->layout, device_info(job->device), job->width, job->height,
+    render->layout = *job->layout;
+    if (job->aov != AOV_NONE)
+        aov_reduce(&render->layout, job->aov);
+    bool ok = plan_make(&render->plan, &render->layout, device_info(job->device), job->width, job->height,
                         job->memory_limit, error);
     if (ok) {
         set_params(render);
@@ -183,10 +194,12 @@ void render_destroy(Render *render)
     buffer_destroy(render->state_ints);
     buffer_destroy(render->film);
     buffer_destroy(render->film_low);
+    buffer_destroy(render->film_m2);
     buffer_destroy(render->ray_counts);
     kernel_destroy(render->kernel);
     program_destroy(render->program);
     free(render->rows);
+    free(render->m2);
     free(render->counts);
     free(render);
 }

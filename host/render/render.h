@@ -6,12 +6,14 @@
 #include "base/error.h"
 #include "device/device.h"
 #include "layout/layout.h"
+#include "render/aov.h"
 
 typedef struct RenderJob {
     const Layout *layout;
     Device *device;
     u32 left, top, width, height; // the crop; within the image
     u64 memory_limit;             // bytes on the device, 0: what the device has
+    u32 aov;                      // AOV_X: what the rows hold
 } RenderJob;
 
 typedef struct RenderStats {
@@ -29,7 +31,7 @@ typedef struct RenderStats {
 // Rows that are complete: count rows of 3 linear numbers a pixel, top first. They stay valid until the next
 // step.
 typedef struct RenderRows {
-    const f32 *rgb;
+    f32 *rgb;
     u32 count;
 } RenderRows;
 

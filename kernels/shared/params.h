@@ -29,7 +29,8 @@ typedef struct RenderParams {
     u32 root;            // node of the top-level hierarchy; NO_INDEX: none
     u32 slots_log2;      // of a pixel: 0, 2 or 4
     u32 mesh_run_count;
-    u32 padding[3];
+    u32 aov; // AOV_X
+    u32 padding[2];
 } RenderParams;
 LAYOUT_SIZE(RenderParams, 144);
 LAYOUT_OFFSET(RenderParams, pixel_scale, 64);

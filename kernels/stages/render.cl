@@ -8,6 +8,13 @@
 #include "stages/trace.h"
 
 #include "stages/film.h"
+// A program of its own for properties of first hits; nothing is changed in others.
+#ifndef AOV
+#define AOV 0
+#endif
+#if AOV
+#include "stages/aov.h"
+#endif
 
 // Queues the slots of samples begin .. end - 1 of the tile's pixels, with their camera rays; returns how many.
 OUTLINE uint start_samples(const State *s, constant RenderParams *params, const Tile *tile, uint begin, uint end,
@@ -81,6 +88,9 @@ static inline void drain_queue(const State *s, const Hierarchy *scene, const Sha
         miss_all(s, count);
 #endif
         GROUP_BARRIER();
+#if AOV
+        shade_aov(s, scene, shading, params, count);
+#else
         LightPass pass;
         pass.first = 0;
         do {
@@ -96,6 +106,7 @@ static inline void drain_queue(const State *s, const Hierarchy *scene, const Sha
 #endif
             pass.first = pass.last;
         } while (!pass.closing);
+#endif
         GROUP_BARRIER();
         count = advance(s, count, scratch);
     }
@@ -128,18 +139,18 @@ kernel void render_tiles(constant RenderParams *params,
                          global const int *mesh_indices,
 #endif
 #if HAS_MESH_NORMALS
-                         global const real *mesh_normals,
+                         global const f32 *mesh_normals,
 #endif
 #if HAS_MESH_UVS
-                         global const real *mesh_uvs,
+                         global const f32 *mesh_uvs,
 #endif
 #if HAS_LIGHTS
                          global const LightRecord *lights,
 #endif
 #if HAS_SAMPLES
-                         global real *film_low,
+                         global f32 *film_low,
 #endif
-                         global real *state_reals, global int *state_ints, global real *film,
+                         global real *state_reals, global int *state_ints, global f32 *film,
                          global uint *ray_counts, uint state_real_fields, uint state_int_fields,
                          uint pending_reals, uint band_top, uint band_rows, uint sample_begin,
                          uint sample_end, local uint *scratch)
@@ -192,7 +203,7 @@ kernel void render_tiles(constant RenderParams *params,
     global const LightRecord *lights = 0;
 #endif
 #if !HAS_SAMPLES
-    global real *film_low = 0;
+    global f32 *film_low = 0;
 #endif
     for (uint t = group; t < tiles; t += groups) {
         Tile tile;
@@ -206,7 +217,7 @@ kernel void render_tiles(constant RenderParams *params,
             const uint end = min(begin + (1u << params->slots_log2), sample_end);
             const uint count = start_samples(&s, params, &tile, begin, end, scratch, rays);
             drain_queue(&s, &scene, &shading, lights, params, count, scratch, rays);
-            film_add(&s, params, film, film_low, &tile, begin, end);
+            film_add(&s, params, film, film_low, film_m2, &tile, begin, end);
             GROUP_BARRIER();
         }
     }

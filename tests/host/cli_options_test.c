@@ -158,6 +158,9 @@ static void refuses_with_words(void **state)
     refused("--json a b", "--json goes with --list-devices");
     refused("-qv a b", "--quiet and --verbose exclude each other");
     refused("-l a", "--list-devices takes no SCENE");
+    refused("--aov depth,colour a b",
+            "--aov 'depth,colour': must be a list of depth, normal, position, albedo, id, with commas between");
+    refused("--aov id a -", "--aov needs a file's name for OUT");
     refused("--bits 9 --depth 99 a b",
             "--bits '9': must be 8 or 16\n--depth '99': must be a whole number from 0 to 64");
 }
@@ -169,7 +172,6 @@ static void says_what_comes_later(void **state)
     refused("--error=0.1 a b", "--error is not supported yet");
     refused("--confidence 0.9 a b", "--confidence is not supported yet");
     refused("--time 5 a b", "--time is not supported yet");
-    refused("--aov depth a b", "--aov is not supported yet");
     refused("--part 1/2 a b", "--part is not supported yet");
     refused("--resume a b", "--resume is not supported yet");
     refused("a b --math", "--math is not supported yet");
