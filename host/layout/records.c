@@ -77,6 +77,8 @@ MaterialRecord material_record(const Material *material, Vec3 ambient_light)
                    (material->fresnel ? MATERIAL_FRESNEL : 0);
     record.diffuse_texture = material->diffuse.texture;
     record.ambient_texture = material->ambient.texture;
+    record.emission_texture = material->emission.texture;
+    record.normal_texture = material->normal_map;
     return record;
 }
 

@@ -6,9 +6,11 @@
 
 #define MATERIAL_BLINN 1u
 #define MATERIAL_FRESNEL 2u
+#define MATERIAL_PBR 4u
+#define MATERIAL_ONE_SIDED 8u // emission of the outer side alone: area lights
 
 typedef struct MaterialRecord {
-    f32 diffuse[3];
+    f32 diffuse[3]; // pbr: base_color
     f32 shininess;
     f32 specular[3];
     f32 ior;
@@ -22,9 +24,18 @@ typedef struct MaterialRecord {
     u32 flags; // MATERIAL_X
     i32 diffuse_texture; // index of a TextureRecord; -1: none
     i32 ambient_texture;
-    u32 padding[2];
+    i32 emission_texture;
+    i32 normal_texture;
+    f32 metallic; // pbr, as are those that follow
+    f32 roughness;
+    f32 occlusion;
+    f32 base_reflectance; // ((ior - 1) / (ior + 1))^2
+    i32 metallic_texture;
+    i32 roughness_texture;
+    i32 occlusion_texture;
+    f32 pbr_transmit;
 } MaterialRecord;
-LAYOUT_SIZE(MaterialRecord, 112);
+LAYOUT_SIZE(MaterialRecord, 144);
 LAYOUT_OFFSET(MaterialRecord, ambient, 32);
 LAYOUT_OFFSET(MaterialRecord, flags, 92);
 
