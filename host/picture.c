@@ -1,11 +1,15 @@
 #include "picture.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "assets/assets.h"
+#include "assets/fingerprint.h"
 #include "base/clock.h"
+#include "budget/budget.h"
 #include "cli/devices.h"
+#include "cli/identity.h"
 #include "cli/progress.h"
 #include "cli/stats.h"
 #include "device/device.h"
@@ -30,6 +34,10 @@ typedef struct Picture {
     Device *device;
     Output *output;
     f64 start; // seconds of a monotonic clock
+    Identity identity;
+    SceneBounds bounds;
+    BudgetPool pool;
+    ErrorBudget budget;
     RunStats stats;
 } Picture;
 
@@ -39,7 +47,8 @@ static bool choose_device(Picture *picture, Error *error)
     picture->devices = device_list_create(error);
     picture->stats.device_seconds = clock_seconds() - start;
     return picture->devices &&
-           devices_choose(picture->devices, picture->options->device, &picture->device_index, error);
+           devices_choose(picture->devices, picture->options->device, &picture->device_index, error) &&
+           math_mode_check(picture->options->math, &picture->devices->devices[picture->device_index], error);
 }
 
 // Prints what there is to say about the scene; false where that is an error.
@@ -88,6 +97,8 @@ static bool lay_out(Picture *picture, Error *error)
 {
     const f64 start = clock_seconds();
     picture->layout = layout_create(picture->scene, error);
+    if (picture->layout)
+        picture->bounds = scene_bounds(picture->scene, picture->layout);
     assets_release(picture->scene); // the layout has what it needs of the meshes
     picture->stats.layout_seconds = clock_seconds() - start;
     return picture->layout != NULL;
@@ -118,6 +129,26 @@ static bool open_device(Picture *picture, Error *error)
     return picture->device && (options->force_device || try_device(picture, error));
 }
 
+// What is written of the image beside its pixels. The fingerprint takes a while where meshes are large.
+static bool identify(Picture *picture, Error *error)
+{
+    const Options *options = picture->options;
+    picture->identity = (Identity){
+        .scene_name = identity_base_name(options->scene),
+        .scene = picture->scene,
+        .device = &picture->devices->devices[picture->device_index],
+        .math = math_mode_name(options->math),
+        .bits = options->bits,
+        .cropped = options->crop_given,
+        .left = picture->left,
+        .top = picture->top,
+        .width = picture->width,
+        .height = picture->height,
+    };
+    const bool wanted = options->stats || !output_ignores_display_settings(options->out);
+    return !wanted || scene_fingerprint(picture->scene, &picture->identity.scene_hash, error);
+}
+
 static bool open_output(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
@@ -131,7 +162,12 @@ static bool open_output(Picture *picture, Error *error)
         (settings->exposure_given || settings->tone_map_given || options->bits_given))
         fprintf(stderr, "clrt: %s takes the radiance alone; exposure, tone map and bits have no effect\n",
                 options->out);
-    const OutputOptions format = {.settings = *settings, .bits = options->bits};
+    if (!identify(picture, error))
+        return false;
+    IdentityTexts texts;
+    identity_texts(&picture->identity, &texts);
+    const OutputOptions format = {
+        .settings = *settings, .bits = options->bits, .texts = texts.texts, .text_count = texts.count};
     picture->output = output_open(options->out, &format, picture->width, picture->height, error);
     if (picture->output)
         interrupt_set_temporary(picture->interrupt, output_temporary_path(picture->output));
@@ -143,20 +179,39 @@ static u64 ray_count(const RenderStats *stats)
     return stats->rays[0] + stats->rays[1] + stats->rays[2] + stats->rays[3];
 }
 
-static bool write_rows(const Picture *picture, Render *render, Error *error)
+static bool take_rows(Picture *picture, const RenderRows *rows, Error *error)
+{
+    const size_t width = picture->width;
+    for (u32 y = 0; y < rows->count; y++)
+        budget_pool_add_row(&picture->pool, rows->rgb + 3 * width * y, rows->m2 ? rows->m2 + width * y : NULL,
+                            picture->width);
+    return rows->count == 0 || output_write_rows(picture->output, rows->rgb, rows->count, error);
+}
+
+static bool write_rows(Picture *picture, Render *render, Error *error)
 {
     Progress progress = progress_start(stderr, picture->options->quiet);
     bool ok = true;
     while (ok && !render_finished(render)) {
         RenderRows rows;
-        ok = render_step(render, &rows, error) &&
-             (rows.count == 0 || output_write_rows(picture->output, rows.rgb, rows.count, error));
+        ok = render_step(render, &rows, error) && take_rows(picture, &rows, error);
         if (ok && interrupt_requested(picture->interrupt))
             ok = error_set(error, ERROR_INTERRUPTED, "interrupted");
         progress_update(&progress, render_progress(render), ray_count(render_stats(render)));
     }
     progress_end(&progress);
     return ok;
+}
+
+static bool state_error(Picture *picture, const Render *render, Error *error)
+{
+    const bool floats = output_ignores_display_settings(picture->options->out);
+    picture->budget = budget_make(picture->scene, &picture->bounds, &picture->pool,
+                                  floats ? 0 : picture->options->bits, NAN);
+    IdentityTexts texts;
+    identity_closing_texts(picture->layout->features, render_stats(render)->program_hash, &picture->budget,
+                           &texts);
+    return output_add_texts(picture->output, texts.texts, texts.count, error);
 }
 
 static bool close_output(Picture *picture, Error *error)
@@ -180,6 +235,8 @@ static bool report(Picture *picture, const Render *render, Error *error)
     stats->device_bytes_peak = device_bytes_peak(picture->device);
     stats->render = render_stats(render);
     stats->layout = picture->layout;
+    stats->identity = &picture->identity;
+    stats->budget = &picture->budget;
     if (picture->options->stats_file)
         return stats_write_json(stats, picture->options->stats_file, error);
     stats_print(stats, stderr);
@@ -196,6 +253,7 @@ static RenderJob render_job(const Picture *picture)
         .width = picture->width,
         .height = picture->height,
         .memory_limit = picture->options->memory,
+        .math = picture->options->math,
     };
 }
 
@@ -203,8 +261,8 @@ static bool render_picture(Picture *picture, Error *error)
 {
     const RenderJob job = render_job(picture);
     Render *render = render_create(&job, error);
-    const bool ok = render && write_rows(picture, render, error) && close_output(picture, error) &&
-                    report(picture, render, error);
+    const bool ok = render && write_rows(picture, render, error) && state_error(picture, render, error) &&
+                    close_output(picture, error) && report(picture, render, error);
     render_destroy(render);
     return ok;
 }

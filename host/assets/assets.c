@@ -1,26 +1,21 @@
 #include "assets/assets.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #include "assets/finish.h"
 #include "assets/import.h"
 #include "assets/materials.h"
+#include "assets/named_files.h"
 #include "assets/obj.h"
-#include "scene/names.h"
-#include "scene/report.h"
+#include "assets/textures.h"
 
-// A file that shapes name.
+// What is made of a file that shapes name.
 typedef struct MeshFile {
-    const char *path; // as the first of them resolves it
-    SourcePos at;     // of that one's `file`
-    u64 device, inode;
-    bool readable;           // it is a regular file
-    bool wanted[2];          // [1]: by a shape that is `smooth on`, [0]: by another
-    const Mesh *meshes[2];   // what these shapes get, NULL after an error
+    const NamedFile *named;
+    bool wanted[2];        // [1]: by a shape that is `smooth on`, [0]: by another
+    const Mesh *meshes[2]; // what these shapes get, NULL after an error
 } MeshFile;
 
 typedef struct Loader {
@@ -28,10 +23,8 @@ typedef struct Loader {
     Arena *arena;
     Arena *scratch; // for as long as assets_load runs
     Diagnostics *diagnostics;
-    Names paths;
-    u32 *path_files; // index of the file, one a path
-    MeshFile *files;
-    u32 file_count;
+    NamedFiles named;
+    MeshFile *files; // one for each of the named
 } Loader;
 
 static bool no_memory(Error *error)
@@ -49,82 +42,28 @@ static u32 wanted_by(const Shape *shape)
     return shape->as.mesh.smooth > 0;
 }
 
-// ---- files ----------------------------------------------------------------------------------
-
 static void refuse(const Loader *loader, const MeshFile *file, const char *what, const char *reason)
 {
-    scene_report(loader->scene, loader->diagnostics, SEVERITY_ERROR, file->at, "cannot %s '%s': %s", what,
-                 file->path, reason);
+    named_file_refuse(&loader->named, file->named, what, reason);
 }
 
-// Looks whether the file can be read and which it is.
-static MeshFile look_up(const Loader *loader, const Shape *shape)
-{
-    MeshFile file = {.path = shape->as.mesh.file, .at = shape->as.mesh.file_at};
-    struct stat status;
-    if (stat(file.path, &status) != 0) {
-        refuse(loader, &file, "read", strerror(errno));
-    } else if (S_ISDIR(status.st_mode)) {
-        refuse(loader, &file, "read", strerror(EISDIR));
-    } else if (!S_ISREG(status.st_mode)) {
-        refuse(loader, &file, "read", "not a regular file");
-    } else {
-        file.readable = true;
-        file.device = (u64)status.st_dev;
-        file.inode = (u64)status.st_ino;
-    }
-    return file;
-}
-
-// The index of the file that shape names, new or known by another name.
-static bool find_file(Loader *loader, const Shape *shape, u32 *index)
-{
-    const MeshFile file = look_up(loader, shape);
-    for (u32 i = 0; file.readable && i < loader->file_count; ++i) {
-        const MeshFile *other = &loader->files[i];
-        if (other->readable && other->device == file.device && other->inode == file.inode) {
-            *index = i;
-            return true;
-        }
-    }
-    MeshFile *files = arena_grow(loader->scratch, loader->files, loader->file_count, sizeof *files);
-    if (!files)
-        return false;
-    loader->files = files;
-    *index = loader->file_count;
-    files[loader->file_count++] = file;
-    return true;
-}
-
-// The index of the file of a shape; a path is looked up once.
-static bool file_of(Loader *loader, const Shape *shape, u32 *index)
-{
-    const char *path = shape->as.mesh.file;
-    const size_t length = strlen(path);
-    const i32 known = names_find(&loader->paths, path, length);
-    if (known >= 0) {
-        *index = loader->path_files[known];
-        return true;
-    }
-    u32 *path_files =
-        arena_grow(loader->scratch, loader->path_files, loader->paths.count, sizeof *path_files);
-    if (!path_files || !find_file(loader, shape, index))
-        return false;
-    loader->path_files = path_files;
-    path_files[loader->paths.count] = *index;
-    return names_add(&loader->paths, loader->scratch, path, length);
-}
-
+// The file of each shape, and how the shapes want it.
 static bool list_files(Loader *loader)
 {
     for (u32 i = 0; i < loader->scene->shape_count; ++i) {
         const Shape *shape = &loader->scene->shapes[i];
-        u32 index;
-        if (!is_mesh(shape))
-            continue;
-        if (!file_of(loader, shape, &index))
+        if (is_mesh(shape) && !named_files_add(&loader->named, shape->as.mesh.file, shape->as.mesh.file_at))
             return false;
-        loader->files[index].wanted[wanted_by(shape)] = true;
+    }
+    loader->files = arena_alloc(loader->scratch, loader->named.count, sizeof *loader->files);
+    if (!loader->files)
+        return false;
+    for (u32 i = 0; i < loader->named.count; ++i)
+        loader->files[i].named = &loader->named.files[i];
+    for (u32 i = 0; i < loader->scene->shape_count; ++i) {
+        const Shape *shape = &loader->scene->shapes[i];
+        if (is_mesh(shape))
+            loader->files[named_files_find(&loader->named, shape->as.mesh.file)].wanted[wanted_by(shape)] = true;
     }
     return true;
 }
@@ -142,7 +81,7 @@ static bool is_obj(const char *path)
 static MaterialContext context_of(const Loader *loader, const MeshFile *file)
 {
     return (MaterialContext){.scene = loader->scene, .arena = loader->arena,
-                             .diagnostics = loader->diagnostics, .path = file->path, .at = file->at};
+                             .diagnostics = loader->diagnostics, .path = file->named->path, .at = file->named->at};
 }
 
 static void map_parts(Mesh *mesh, const i32 *indices)
@@ -158,9 +97,9 @@ static bool read_obj(const Loader *loader, const MeshFile *file, Mesh *mesh, Err
 {
     ObjFile obj = {0};
     const u32 errors = diagnostics_error_count(loader->diagnostics);
-    const bool read = obj_read(file->path, loader->diagnostics, &obj, error);
+    const bool read = obj_read(file->named->path, loader->diagnostics, &obj, error);
     if (!read && error->code == ERROR_MEMORY)
-        return error_set(error, ERROR_MEMORY, "%s: no memory for the mesh", file->path);
+        return error_set(error, ERROR_MEMORY, "%s: no memory for the mesh", file->named->path);
     if (!read)
         refuse(loader, file, "read", error->text);
     bool ok = true;
@@ -181,9 +120,9 @@ static bool read_obj(const Loader *loader, const MeshFile *file, Mesh *mesh, Err
 static bool read_other(const Loader *loader, const MeshFile *file, Mesh *mesh, Error *error)
 {
     ImportFile import = {0};
-    if (!import_read(file->path, &import, error)) {
+    if (!import_read(file->named->path, &import, error)) {
         if (error->code == ERROR_MEMORY)
-            return error_set(error, ERROR_MEMORY, "%s: no memory for the mesh", file->path);
+            return error_set(error, ERROR_MEMORY, "%s: no memory for the mesh", file->named->path);
         refuse(loader, file, "read", error->text);
         return true;
     }
@@ -233,11 +172,11 @@ static bool finish(const Loader *loader, MeshFile *file, Mesh *mesh, Error *erro
 
 static bool load_file(const Loader *loader, MeshFile *file, Error *error)
 {
-    if (!file->readable)
+    if (!file->named->readable)
         return true;
     const u32 errors = diagnostics_error_count(loader->diagnostics);
     Mesh *mesh = next_mesh(loader->scene);
-    const bool read = is_obj(file->path) ? read_obj(loader, file, mesh, error)
+    const bool read = is_obj(file->named->path) ? read_obj(loader, file, mesh, error)
                                          : read_other(loader, file, mesh, error);
     if (!read || diagnostics_error_count(loader->diagnostics) > errors)
         return read;
@@ -250,9 +189,8 @@ static void point_shapes(Loader *loader)
         Shape *shape = &loader->scene->shapes[i];
         if (!is_mesh(shape))
             continue;
-        const char *path = shape->as.mesh.file;
-        const i32 known = names_find(&loader->paths, path, strlen(path));
-        shape->as.mesh.mesh = loader->files[loader->path_files[known]].meshes[wanted_by(shape)];
+        const u32 file = named_files_find(&loader->named, shape->as.mesh.file);
+        shape->as.mesh.mesh = loader->files[file].meshes[wanted_by(shape)];
     }
 }
 
@@ -262,10 +200,10 @@ static bool load(Loader *loader, Error *error)
         return no_memory(error);
     Scene *scene = loader->scene;
     scene->mesh_count = 0;
-    scene->meshes = arena_alloc(loader->arena, 2 * (size_t)loader->file_count, sizeof *scene->meshes);
+    scene->meshes = arena_alloc(loader->arena, 2 * (size_t)loader->named.count, sizeof *scene->meshes);
     if (!scene->meshes)
         return no_memory(error);
-    for (u32 i = 0; i < loader->file_count; ++i) {
+    for (u32 i = 0; i < loader->named.count; ++i) {
         if (!load_file(loader, &loader->files[i], error))
             return false;
     }
@@ -277,7 +215,9 @@ bool assets_load(Scene *scene, Arena *arena, Diagnostics *diagnostics, Error *er
 {
     Loader loader = {
         .scene = scene, .arena = arena, .scratch = arena_create(), .diagnostics = diagnostics};
-    const bool ok = load(&loader, error);
+    loader.named = (NamedFiles){.scene = scene, .arena = loader.scratch, .diagnostics = diagnostics};
+    // Meshes first: their materials may name images, too.
+    const bool ok = load(&loader, error) && textures_load(scene, arena, diagnostics, error);
     arena_destroy(loader.scratch);
     return ok;
 }
@@ -286,6 +226,7 @@ void assets_release(Scene *scene)
 {
     if (!scene)
         return;
+    textures_release(scene);
     for (u32 i = 0; i < scene->mesh_count; ++i)
         mesh_destroy(&scene->meshes[i]);
     scene->meshes = NULL;

@@ -223,7 +223,8 @@ void options_print_usage(FILE *stream)
           "       clrt --list-devices [--json]\n"
           "       clrt --self-test[=FILE.json]\n"
           "\n"
-          "Renders the scene file SCENE on an OpenCL device into the picture OUT, .png or .pfm.\n"
+          "Renders the scene file SCENE on an OpenCL device into the picture OUT, .png,\n"
+          ".exr, .hdr or .pfm.\n"
           "SCENE - is standard input, OUT - a PNG on standard output.\n",
           stream);
     for (int group = 0; group < GROUP_LATER; group++) {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/types.h"
+#include "render/math_mode.h"
 #include "scene/scene.h"
 
 typedef enum Action {
@@ -39,6 +40,7 @@ typedef struct Options {
     u32 bits;                         // 8 or 16
     bool bits_given;
     u32 aovs;   // bit AOV_X for each that is asked for
+    MathMode math;
     u64 memory; // bytes, 0: not given
     u32 threads; // 0: not given
     bool stats;

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "cli/identity_json.h"
 #include "cli/json_file.h"
 
 static const f64 MIB = 1024.0 * 1024.0;
@@ -52,7 +53,8 @@ void stats_print(const RunStats *stats, FILE *stream)
     for (u32 i = 0; i < FEATURE_COUNT; i++)
         if (features_have(stats->layout->features, (Feature)i))
             fprintf(stream, " %s", feature_name((Feature)i));
-    fputc('\n', stream);
+    fputs("\nerror budget\n", stream);
+    budget_print(stats->budget, "  ", stream);
 }
 
 static json_t *rays_to_json(const RenderStats *render)
@@ -93,12 +95,14 @@ static json_t *to_json(const RunStats *stats)
 {
     const RenderStats *render = stats->render;
     json_t *name = json_string(stats->device_name); // NULL where it is no UTF-8
-    return json_pack("{s:i, s:i, s:o?, s:o, s:o, s:o, s:f, s:i, s:i, s:i, s:o}", "width", (int)stats->width,
+    return json_pack("{s:i, s:i, s:o?, s:o, s:o, s:o, s:f, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "width", (int)stats->width,
                      "height", (int)stats->height, "device", name, "seconds", seconds_to_json(stats), "bytes",
                      bytes_to_json(stats), "rays", rays_to_json(render), "rays_per_second",
                      rays_a_second(render), "launches", (int)render->launches, "band_rows",
                      (int)render->band_rows, "tiles_in_flight", (int)render->groups, "features",
-                     features_to_json(stats->layout->features));
+                     features_to_json(stats->layout->features), "run",
+                     identity_json(stats->identity, render->program_hash), "budget",
+                     budget_json(stats->budget), "health", health_json(stats->budget));
 }
 
 bool stats_write_json(const RunStats *stats, const char *path, Error *error)

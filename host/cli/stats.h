@@ -1,10 +1,12 @@
-// What --stats tells: where the time of a run went, rays by kind, memory, features.
+// What --stats tells: where the time of a run went, rays by kind, memory, features, the error budget.
 #ifndef CLRT_CLI_STATS_H
 #define CLRT_CLI_STATS_H
 
 #include <stdio.h>
 
 #include "base/error.h"
+#include "budget/budget.h"
+#include "cli/identity.h"
 #include "layout/layout.h"
 #include "render/render.h"
 
@@ -20,6 +22,8 @@ typedef struct RunStats {
     u64 device_bytes_peak;
     const RenderStats *render;
     const Layout *layout;
+    const Identity *identity;
+    const ErrorBudget *budget;
 } RunStats;
 
 // The largest resident set of this process so far, in bytes.

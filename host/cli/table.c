@@ -57,6 +57,12 @@ static const char *take_json(Options *options, const char *value)
     return NULL;
 }
 
+static const char *take_math(Options *options, const char *value)
+{
+    options->math = math_mode_find(value);
+    return options->math < MATH_MODES ? NULL : "exact, fast or double";
+}
+
 static const char *take_memory(Options *options, const char *value)
 {
     u32 mib;
@@ -231,6 +237,8 @@ const Option OPTIONS[] = {
      "numerical hard cases on the device: a table, or into the file", take_self_test},
     {0, "force-device", VALUE_NONE, NULL, GROUP_DEVICE, "render also on a device that gives wrong answers",
      take_force_device},
+    {0, "math", VALUE_REQUIRED, "NAME", GROUP_DEVICE,
+     "exact: the same bytes on every device; fast: the device's own functions; double [exact]", take_math},
     {0, "memory", VALUE_REQUIRED, "MIB", GROUP_DEVICE, "bound of device memory in MiB [the device's]",
      take_memory},
     {0, "threads", VALUE_REQUIRED, "N", GROUP_DEVICE,
@@ -254,7 +262,6 @@ const Option OPTIONS[] = {
     {'v', "verbose", VALUE_NONE, NULL, GROUP_RUN, "say what is done", take_verbose},
     {'h', "help", VALUE_NONE, NULL, GROUP_RUN, "show this text", take_help},
     {0, "version", VALUE_NONE, NULL, GROUP_RUN, "show the version", take_version},
-    {0, "math", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "error", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "confidence", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},
     {0, "time", VALUE_REQUIRED, NULL, GROUP_LATER, NULL, NULL},

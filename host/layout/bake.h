@@ -23,6 +23,9 @@ typedef struct BakedBounds {
 bool bake_shape(const Shape *shape, const Affine *to_space, Primitive *out, BakedBounds *bounds,
                 Error *error);
 
+// The surface of an area light, in the same way. Its outer side is the one that shines.
+bool bake_light(const Light *light, const Affine *to_space, Primitive *out, BakedBounds *bounds, Error *error);
+
 // The way back from that space. Numbers out of the range of float: ERROR_SCENE, as above.
 bool bake_object_frame(const Affine *to_space, ObjectFrame *out, Error *error);
 

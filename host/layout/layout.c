@@ -1,40 +1,58 @@
 #include "layout/layout.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "layout/filter.h"
 #include "layout/hierarchy.h"
+#include "layout/lights.h"
 #include "layout/place.h"
 #include "layout/records.h"
+#include "layout/textures.h"
 
 static bool positive(Vec3 v)
 {
     return v.x > 0 || v.y > 0 || v.z > 0;
 }
 
+// The ambient intensity that a material gets: an environment lights pbr in its place.
+static Vec3 ambient_light(const Scene *scene, const Material *material)
+{
+    const bool lit = material->kind == MATERIAL_PBR && scene->environment.present;
+    return lit ? (Vec3){ 0, 0, 0 } : scene->ambient;
+}
+
+// Indices of the textures of a used material that can be seen; returns how many.
+static u32 seen_textures(const Scene *scene, const Material *material, bool lights,
+                         i32 textures[MATERIAL_TEXTURES_MAX])
+{
+    const bool mirrors = material_mirrors(material) && scene->render.max_depth > 0;
+    const bool lit = lights || (material->kind == MATERIAL_PBR && mirrors);
+    return material_textures(material, lit, positive(ambient_light(scene, material)), textures);
+}
+
 // Features that one used material brings.
 static FeatureSet material_features(const Scene *scene, const Material *material, bool lights)
 {
     FeatureSet set = 0;
-    const bool mirrors = positive(material->reflect), transmits = positive(material->transmit);
+    const bool mirrors = material_mirrors(material), transmits = material_transmits(material);
+    const bool pbr = material->kind == MATERIAL_PBR;
+    const Vec3 ambient = ambient_light(scene, material);
     const bool deep = scene->render.max_depth > 0;
-    const ColorInput inputs[2] = { material->diffuse, material->ambient };
-    const bool seen[2] = { lights, positive(scene->ambient) };
-    for (int k = 0; k < 2; k++) {
-        if (!seen[k] || inputs[k].texture < 0)
-            continue;
-        const bool solid = scene->textures[inputs[k].texture].kind == TEXTURE_CHECKER3D;
-        set |= solid ? feature_bit(FEATURE_CHECKER3D)
-                     : feature_bit(FEATURE_CHECKER) | feature_bit(FEATURE_UV);
-    }
-    if (seen[1] && (material->ambient.texture >= 0 || positive(material->ambient.color)))
+    i32 textures[MATERIAL_TEXTURES_MAX];
+    for (u32 i = seen_textures(scene, material, lights, textures); i-- > 0;)
+        set |= texture_features(&scene->textures[textures[i]]);
+    if (material->normal_map >= 0)
+        set |= feature_bit(FEATURE_NORMAL_MAP) | feature_bit(FEATURE_UV);
+    if (positive(ambient) && positive(pbr ? material->base_color.color : material->ambient.color))
         set |= feature_bit(FEATURE_AMBIENT);
     if (positive(material->emission.color))
         set |= feature_bit(FEATURE_EMISSION);
-    if (lights && positive(material->specular))
+    if (pbr && (lights || (mirrors && deep) || positive(ambient)))
+        set |= feature_bit(FEATURE_PBR);
+    if (lights && !pbr && positive(material->specular))
         set |= feature_bit(FEATURE_SPECULAR) |
                feature_bit(material->kind == MATERIAL_BLINN_PHONG ? FEATURE_BLINN : FEATURE_PHONG);
     if (lights && transmits && scene->render.shadows)
@@ -45,27 +63,50 @@ static FeatureSet material_features(const Scene *scene, const Material *material
         set |= feature_bit(FEATURE_TRANSMIT);
     if (deep && transmits && mirrors)
         set |= feature_bit(FEATURE_BRANCHING);
-    if (deep && material->fresnel && (mirrors || transmits))
+    if (deep && !pbr && material->fresnel && (mirrors || transmits))
         set |= feature_bit(FEATURE_FRESNEL);
     return set;
 }
 
+static LightUse light_use(const Scene *scene, const Placer *placer)
+{
+    LightUse use = { false, false };
+    for (u32 i = 0; i < scene->material_count; i++) {
+        const Material *material = &scene->materials[i];
+        if (!placer->material_used[i])
+            continue;
+        const bool pbr = material->kind == MATERIAL_PBR;
+        const ColorInput ambient = pbr ? material->base_color : material->ambient;
+        use.pbr = use.pbr || pbr;
+        use.ambient = use.ambient || (positive(ambient_light(scene, material)) &&
+                                      (ambient.texture >= 0 || positive(ambient.color)));
+    }
+    return use;
+}
+
+static FeatureSet filter_features(Filter filter)
+{
+    switch (filter) {
+    case FILTER_TENT: return feature_bit(FEATURE_FILTER_TENT);
+    case FILTER_GAUSSIAN: return feature_bit(FEATURE_FILTER_TABLE);
+    case FILTER_MITCHELL: return feature_bit(FEATURE_FILTER_TABLE) | feature_bit(FEATURE_FILTER_LOBES);
+    default: return 0;
+    }
+}
+
 static FeatureSet scene_features(const Scene *scene, const Layout *layout, const Placer *placer)
 {
-    static const Feature light_features[] = { [LIGHT_KIND_POINT] = FEATURE_POINT,
-                                              [LIGHT_KIND_DIRECTIONAL] = FEATURE_DIRECTIONAL,
-                                              [LIGHT_KIND_SPOT] = FEATURE_SPOT };
     FeatureSet set = placer->features;
     const bool bounded = placer->top.count > 0, surfaces = bounded || placer->planes.count > 0;
-    const bool lights = surfaces && layout->light_count > 0;
+    const bool lights = surfaces && lights_direct(layout);
     if (surfaces)
         set |= feature_bit(FEATURE_SURFACES);
     if (bounded)
         set |= feature_bit(FEATURE_BVH);
-    for (u32 i = 0; lights && i < layout->light_count; i++)
-        set |= feature_bit(FEATURE_LIGHTS) | feature_bit(light_features[layout->lights[i].kind]);
-    if (lights && scene->render.shadows)
-        set |= feature_bit(FEATURE_SHADOWS);
+    if (surfaces)
+        set |= lights_features(layout, scene->render.shadows);
+    if (features_have(set, FEATURE_SPHERE_LIGHT) || features_have(set, FEATURE_RECTANGLE_LIGHT))
+        set |= feature_bit(FEATURE_EMISSION);
     for (u32 i = 0; i < scene->material_count; i++)
         if (placer->material_used[i])
             set |= material_features(scene, &scene->materials[i], lights);
@@ -76,67 +117,71 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
     if (scene->camera.orthographic)
         set |= feature_bit(FEATURE_ORTHOGRAPHIC);
     if (scene->image.samples > 1)
-        set |= feature_bit(FEATURE_SAMPLES);
+        set |= feature_bit(FEATURE_SAMPLES) | filter_features(scene->image.filter);
+    if (scene->camera.aperture > 0)
+        set |= feature_bit(FEATURE_APERTURE);
     return set;
-}
-
-// Bits of the planes (of the first 32) that the light lies on, within the rounding of both to float.
-static u32 planes_of_light(const Layout *layout, const LightRecord *light)
-{
-    u32 planes = 0;
-    for (u32 i = 0; i < layout->plane_count && i < 32 && light->kind != LIGHT_KIND_DIRECTIONAL; i++) {
-        const Primitive *plane = &layout->primitives[i];
-        const f64 x = (f64)plane->row2.x * light->position.x, y = (f64)plane->row2.y * light->position.y;
-        const f64 z = (f64)plane->row2.z * light->position.z;
-        const f64 size = fabs(x) + fabs(y) + fabs(z) + fabs((f64)plane->p0);
-        if (fabs(x + y + z - plane->p0) <= 2 * FLT_EPSILON * size)
-            planes |= 1u << i;
-    }
-    return planes;
-}
-
-static u32 bright_lights(const Scene *scene)
-{
-    u32 count = 0;
-    for (u32 i = 0; i < scene->light_count; i++)
-        count += positive(scene->lights[i].intensity);
-    return count;
 }
 
 static bool add_records(Layout *layout, const Scene *scene, const Placer *placer, Error *error)
 {
-    layout->material_count = scene->material_count;
-    layout->texture_count = scene->texture_count;
-    layout->light_count = layout->params.light_count = bright_lights(scene); // a dark light is none
+    layout->material_count = scene->material_count + placer->area_lights;
     layout->extra_count = placer->extra_count;
     layout->materials = page_alloc(layout->material_count * sizeof *layout->materials);
-    layout->textures = page_alloc(layout->texture_count * sizeof *layout->textures);
-    layout->lights = page_alloc(layout->light_count * sizeof *layout->lights);
     layout->extras = page_alloc(layout->extra_count * sizeof *layout->extras);
     if ((!layout->materials && layout->material_count > 0) ||
-        (!layout->textures && layout->texture_count > 0) || (!layout->lights && layout->light_count > 0) ||
         (!layout->extras && layout->extra_count > 0))
-        return error_set(error, ERROR_MEMORY, "no memory for materials and lights");
+        return error_set(error, ERROR_MEMORY, "no memory for materials");
     for (u32 i = 0; i < scene->material_count; i++)
-        layout->materials[i] = material_record(&scene->materials[i], scene->ambient);
-    for (u32 i = 0; i < scene->texture_count; i++)
-        layout->textures[i] = texture_record(&scene->textures[i]);
-    u32 light = 0;
+        layout->materials[i] =
+            material_record(&scene->materials[i], ambient_light(scene, &scene->materials[i]));
+    u32 surface = scene->material_count;
     for (u32 i = 0; i < scene->light_count; i++)
-        if (positive(scene->lights[i].intensity))
-            layout->lights[light++] = light_record(&scene->lights[i], scene->camera.position);
+        if (scene->lights[i].kind == LIGHT_SPHERE || scene->lights[i].kind == LIGHT_RECTANGLE)
+            layout->materials[surface++] = light_material(&scene->lights[i]);
     if (layout->extra_count > 0)
         memcpy(layout->extras, placer->extras, layout->extra_count * sizeof *layout->extras);
     return true;
 }
 
+static bool add_filter(Layout *layout, const Scene *scene, Error *error)
+{
+    layout->params.filter_ratio = (f32)filter_ratio(scene->image.filter);
+    if (!features_have(layout->features, FEATURE_FILTER_TABLE))
+        return true;
+    layout->quantile_count = FILTER_STEPS + 1;
+    layout->quantiles = page_alloc(layout->quantile_count * sizeof *layout->quantiles);
+    if (!layout->quantiles)
+        return error_set(error, ERROR_MEMORY, "no memory for the pixel filter");
+    filter_quantiles(scene->image.filter, layout->quantiles);
+    return true;
+}
+
 static void finish(Layout *layout)
 {
-    for (u32 i = 0; i < layout->light_count; i++)
-        layout->lights[i].planes = planes_of_light(layout, &layout->lights[i]);
+    lights_finish(layout);
     layout->params.plane_count = layout->plane_count;
     layout->params.root = layout->root;
     layout->params.mesh_run_count = layout->mesh_run_count;
+}
+
+// Textures, and the texels of those that can be seen.
+static bool add_textures(Layout *layout, const Scene *scene, const Placer *placer, Error *error)
+{
+    const bool lights = features_have(layout->features, FEATURE_LIGHTS);
+    bool *used = calloc(scene->texture_count + (size_t)1, sizeof *used);
+    if (!used)
+        return error_set(error, ERROR_MEMORY, "no memory for %u textures", scene->texture_count);
+    for (u32 i = 0; i < scene->material_count; i++) {
+        i32 textures[MATERIAL_TEXTURES_MAX];
+        if (!placer->material_used[i])
+            continue;
+        for (u32 k = seen_textures(scene, &scene->materials[i], lights, textures); k-- > 0;)
+            used[textures[k]] = true;
+    }
+    const bool ok = textures_add(layout, scene, used, error);
+    free(used);
+    return ok;
 }
 
 Layout *layout_create(const Scene *scene, Error *error)
@@ -149,10 +194,12 @@ Layout *layout_create(const Scene *scene, Error *error)
     }
     layout->params = camera_params(scene);
     layout->root = NO_INDEX;
-    bool ok = placer_run(&placer, scene, error) && add_records(layout, scene, &placer, error);
+    bool ok = placer_run(&placer, scene, error) && add_records(layout, scene, &placer, error) &&
+              lights_add(layout, scene, light_use(scene, &placer), error);
     if (ok) {
         layout->features = scene_features(scene, layout, &placer);
-        ok = hierarchies_add(layout, &placer, error);
+        ok = add_filter(layout, scene, error) && add_textures(layout, scene, &placer, error) &&
+             hierarchies_add(layout, &placer, error);
     }
     if (ok)
         finish(layout);
@@ -180,7 +227,9 @@ void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS])
         { "extras", l->extras, l->extra_count * sizeof *l->extras },
         { "materials", l->materials, l->material_count * sizeof *l->materials },
         { "textures", l->textures, l->texture_count * sizeof *l->textures },
+        { "texels", l->texels, l->texel_bytes },
         { "lights", l->lights, l->light_count * sizeof *l->lights },
+        { "quantiles", l->quantiles, l->quantile_count * sizeof *l->quantiles },
     };
     memcpy(arrays, all, sizeof all);
 }

@@ -14,6 +14,8 @@
 #include "shared/mesh.h"
 #include "shared/object_frame.h"
 #include "shared/params.h"
+#include "shared/texture.h"
+#include "shared/texture.h"
 
 // All arrays are in whole pages (base/memory.h), so that devices can use them in place; those of no members
 // are NULL.
@@ -44,8 +46,12 @@ typedef struct Layout {
     u32 material_count;
     TextureRecord *textures; // at the scene's indices
     u32 texture_count;
+    u8 *texels; // of the images that can be seen, behind the tables of levels (shared/texture.h)
+    u64 texel_bytes;
     LightRecord *lights;
     u32 light_count;
+    f32 *quantiles; // of the pixel filter, where it needs a table
+    u32 quantile_count;
     RenderParams params; // all but crop, samples in hand and what the device decides
     f64 build_seconds;   // of the hierarchies
 } Layout;
@@ -57,7 +63,7 @@ typedef struct LayoutArray {
     u64 bytes;
 } LayoutArray;
 
-#define LAYOUT_ARRAYS 13
+#define LAYOUT_ARRAYS 15
 void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS]);
 
 // Shapes that are meshes must have theirs, one of scene->meshes. Fails with ERROR_MEMORY, and with the place

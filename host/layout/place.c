@@ -8,6 +8,7 @@
 #include "layout/bake.h"
 #include "layout/faces.h"
 #include "layout/records.h"
+#include "layout/textures.h"
 
 // Where a group is placed: space of the group -> render space, the material that its shapes inherit (-1:
 // none), its first place in the order of definition.
@@ -29,6 +30,7 @@ static const Feature shape_features[PRIMITIVE_KIND_COUNT] = {
     [PRIMITIVE_CONE] = FEATURE_CONE,
     [PRIMITIVE_TORUS] = FEATURE_TORUS,
     [PRIMITIVE_TRIANGLE] = FEATURE_TRIANGLE,
+    [PRIMITIVE_RECTANGLE] = FEATURE_RECTANGLE,
 };
 
 static Vec3 carried_normal(const Affine *inverse, Vec3 n)
@@ -275,6 +277,22 @@ static bool place_shape(Placer *placer, const Shape *shape, Frame *frame, Error 
                      material < 0 ? 0 : material, order, error);
 }
 
+// Places the surface of an area light.
+static bool place_light(Placer *placer, const Light *light, Frame *frame, Error *error)
+{
+    Primitive primitive;
+    BakedBounds bounds;
+    const u64 order = frame->at.order++;
+    const PrimitiveInfo info = { placer->scene->material_count + placer->area_lights++, NO_INDEX, (u32)order,
+                                 (u32)(order >> 32) };
+    if (!bake_light(light, &frame->at.to_render, &primitive, &bounds, error))
+        return error_locate(placer->scene, light->at, error);
+    placer->features |= feature_bit(shape_features[primitive.kind]);
+    primitive.kind |= PRIMITIVE_OPAQUE;
+    return primitive_list_add(&placer->top.list, &primitive, info, NULL,
+                              box_from_bounds(bounds.min, bounds.max), error);
+}
+
 // Places an instance and puts the group of its object on the stack.
 static bool place_instance(Placer *placer, const Instance *instance, FrameStack *stack, Error *error)
 {
@@ -307,6 +325,8 @@ static bool place_world(Placer *placer, Placement world, Error *error)
             ok = place_shape(placer, &scene->shapes[item.index], frame, error);
         else if (item.kind == ITEM_INSTANCE)
             ok = place_instance(placer, &scene->instances[item.index], &stack, error);
+        else
+            ok = place_light(placer, &scene->lights[item.index], frame, error);
     }
     free(stack.frames);
     return ok;
@@ -357,13 +377,14 @@ static void find_texture_needs(Placer *placer)
 {
     const Scene *scene = placer->scene;
     for (u32 i = 0; i < scene->material_count; i++) {
-        const i32 textures[2] = { scene->materials[i].diffuse.texture, scene->materials[i].ambient.texture };
-        for (int k = 0; k < 2; k++) {
-            if (textures[k] >= 0 && scene->textures[textures[k]].kind == TEXTURE_CHECKER3D)
-                placer->solid = true;
-            else if (textures[k] >= 0)
-                placer->uv = true;
+        const Material *material = &scene->materials[i];
+        i32 textures[MATERIAL_TEXTURES_MAX];
+        for (u32 k = material_textures(material, true, true, textures); k-- > 0;) {
+            const bool solid = scene->textures[textures[k]].kind == TEXTURE_CHECKER3D;
+            placer->solid |= solid;
+            placer->uv |= !solid;
         }
+        placer->uv |= material->normal_map >= 0;
     }
 }
 

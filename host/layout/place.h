@@ -29,6 +29,7 @@ typedef struct Placer {
     ObjectLayout *objects; // at the scene's indices
     TriangleExtra *extras;
     u32 extra_count, extra_capacity;
+    u32 area_lights; // placed; their materials stand behind the scene's, in the order of the lights
     bool uv, solid; // some texture needs texture coordinates, or object space
     FeatureSet features; // of shapes and placements
     bool *material_used; // at the scene's indices

@@ -35,8 +35,24 @@ LightRecord light_record(const Light *light, Vec3 camera)
         record.direction = f32x4_from(vec_normalize(light->direction));
         return record;
     }
+    if (light->kind == LIGHT_RECTANGLE) {
+        const Vec3 across = vec_cross(light->edge1, light->edge2), n = vec_normalize(across);
+        record.kind = LIGHT_KIND_RECTANGLE;
+        record.position = f32x4_from(vec_sub(light->position, camera));
+        record.direction = f32x4_from(light->edge1);
+        record.edge = f32x4_from(light->edge2);
+        record.normal = f32x4_from(n);
+        record.normal.w = (f32)vec_dot(n, vec_sub(light->position, camera));
+        record.size = (f32)vec_length(across);
+        return record;
+    }
     record.kind = LIGHT_KIND_POINT;
     record.position = f32x4_from(vec_sub(light->position, camera));
+    if (light->kind == LIGHT_SPHERE) {
+        record.kind = LIGHT_KIND_SPHERE;
+        record.size = (f32)light->radius;
+        return record;
+    }
     for (int k = 0; k < 3; k++)
         record.attenuation[k] = (f32)light->attenuation[k];
     if (light->kind == LIGHT_SPOT) {
@@ -51,7 +67,39 @@ LightRecord light_record(const Light *light, Vec3 camera)
 
 bool material_transmits(const Material *material)
 {
+    if (material->kind == MATERIAL_PBR)
+        return material->pbr_transmit > 0 && (material->metallic.texture >= 0 || material->metallic.value < 1);
     return material->transmit.x > 0 || material->transmit.y > 0 || material->transmit.z > 0;
+}
+
+bool material_mirrors(const Material *material)
+{
+    if (material->kind == MATERIAL_PBR)
+        return material->roughness.texture >= 0 || material->roughness.value < 0.02 || material_transmits(material);
+    return material->reflect.x > 0 || material->reflect.y > 0 || material->reflect.z > 0;
+}
+
+static void set_pbr(MaterialRecord *record, const Material *material, Vec3 ambient_light)
+{
+    const f64 edge = (material->ior - 1) / (material->ior + 1);
+    const f64 metallic = material->metallic.texture >= 0 ? 0 : material->metallic.value;
+    const f64 through = material->pbr_transmit * (1 - metallic);
+    const Vec3 base = material->base_color.color, ka = base;
+    record->flags = MATERIAL_IS_PBR;
+    store3(record->diffuse, base);
+    store3(record->ambient, (Vec3){ka.x * ambient_light.x, ka.y * ambient_light.y, ka.z * ambient_light.z});
+    store3(record->transmit, (Vec3){through * base.x, through * base.y, through * base.z});
+    store3(record->specular, (Vec3){0, 0, 0});
+    store3(record->reflect, (Vec3){0, 0, 0});
+    record->diffuse_texture = record->ambient_texture = material->base_color.texture;
+    record->metallic = (f32)material->metallic.value;
+    record->roughness = (f32)material->roughness.value;
+    record->occlusion = (f32)material->occlusion.value;
+    record->metallic_texture = material->metallic.texture;
+    record->roughness_texture = material->roughness.texture;
+    record->occlusion_texture = material->occlusion.texture;
+    record->base_reflectance = (f32)(edge * edge);
+    record->pbr_transmit = (f32)material->pbr_transmit;
 }
 
 MaterialRecord material_record(const Material *material, Vec3 ambient_light)
@@ -59,7 +107,7 @@ MaterialRecord material_record(const Material *material, Vec3 ambient_light)
     MaterialRecord record;
     memset(&record, 0, sizeof record);
     const f64 ior = material->ior;
-    const Vec3 ka = material->ambient.texture >= 0 ? (Vec3){ 1, 1, 1 } : material->ambient.color;
+    const Vec3 ka = material->ambient.color;
     store3(record.diffuse, material->diffuse.color);
     store3(record.specular, material->specular);
     store3(record.ambient,
@@ -79,23 +127,8 @@ MaterialRecord material_record(const Material *material, Vec3 ambient_light)
     record.ambient_texture = material->ambient.texture;
     record.emission_texture = material->emission.texture;
     record.normal_texture = material->normal_map;
-    return record;
-}
-
-TextureRecord texture_record(const Texture *texture)
-{
-    TextureRecord record;
-    memset(&record, 0, sizeof record);
-    const bool solid = texture->kind == TEXTURE_CHECKER3D;
-    const f64 u = texture->scale[0], v = solid ? u : texture->scale[1];
-    store3(record.color_a, texture->colors[0]);
-    store3(record.color_b, texture->colors[1]);
-    record.scale_u = (f32)u;
-    record.scale_v = (f32)v;
-    record.scale_u_low = (f32)(u - record.scale_u);
-    record.scale_v_low = (f32)(v - record.scale_v);
-    record.inset = (f32)(1e-4 / u);
-    record.kind = solid ? TEXTURE_KIND_CHECKER3D : TEXTURE_KIND_CHECKER;
+    if (material->kind == MATERIAL_PBR)
+        set_pbr(&record, material, ambient_light);
     return record;
 }
 
@@ -118,6 +151,8 @@ RenderParams camera_params(const Scene *scene)
     params.samples = scene->image.samples;
     params.seed = scene->image.seed;
     params.max_depth = scene->render.max_depth;
+    params.aperture = (f32)camera->aperture;
+    params.focus_distance = (f32)camera->focus_distance;
     params.root = NO_INDEX;
     return params;
 }

@@ -1,5 +1,7 @@
 #include "output/output.h"
 
+#include "output/exr_stream.h"
+#include "output/hdr_stream.h"
 #include "output/png_stream.h"
 #include "output/quantize.h"
 #include "output/sink.h"
@@ -11,7 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-typedef enum Format { FORMAT_PNG, FORMAT_PFM, FORMAT_LATER, FORMAT_UNKNOWN } Format;
+typedef enum Format { FORMAT_PNG, FORMAT_PFM, FORMAT_HDR, FORMAT_EXR, FORMAT_UNKNOWN } Format;
 
 struct Output {
     const char *path;
@@ -22,6 +24,8 @@ struct Output {
     u8 *row;              // one encoded row
     Quantizer *quantizer; // PNG
     PngStream *png;       // PNG
+    HdrStream *hdr;       // HDR
+    ExrStream *exr;       // EXR
     size_t header_bytes;  // PFM
 };
 
@@ -52,8 +56,10 @@ static Format path_format(const char *path)
         return FORMAT_PNG;
     if (same_suffix(suffix, ".pfm"))
         return FORMAT_PFM;
-    if (same_suffix(suffix, ".exr") || same_suffix(suffix, ".hdr"))
-        return FORMAT_LATER;
+    if (same_suffix(suffix, ".hdr"))
+        return FORMAT_HDR;
+    if (same_suffix(suffix, ".exr"))
+        return FORMAT_EXR;
     struct stat file;
     if (*suffix || stat(path, &file) != 0 || S_ISREG(file.st_mode) || S_ISDIR(file.st_mode))
         return FORMAT_UNKNOWN;
@@ -62,16 +68,18 @@ static Format path_format(const char *path)
 
 bool output_ignores_display_settings(const char *path)
 {
-    return path_format(path) == FORMAT_PFM;
+    const Format format = path_format(path);
+    return format == FORMAT_PFM || format == FORMAT_HDR || format == FORMAT_EXR;
 }
 
 static bool check_format(Format format, const char *path, Error *error)
 {
-    if (format == FORMAT_LATER)
-        return error_set(error, ERROR_USAGE, "%s: %s is not supported yet; the output may be .png or .pfm",
-                         path, path_suffix(path));
+    if (format == FORMAT_EXR && !exr_stream_available())
+        return error_set(error, ERROR_USAGE, "%s: this build writes no OpenEXR; the output may be .png, .hdr or .pfm",
+                         path);
     if (format == FORMAT_UNKNOWN)
-        return error_set(error, ERROR_USAGE, "%s: the suffix says the format and must be .png or .pfm", path);
+        return error_set(error, ERROR_USAGE,
+                         "%s: the suffix says the format and must be .png, .exr, .hdr or .pfm", path);
     return true;
 }
 
@@ -90,6 +98,22 @@ static bool open_pfm(Output *output, Error *error)
     const int length = snprintf(header, sizeof header, "PF\n%u %u\n-1.0\n", output->width, output->height);
     output->header_bytes = (size_t)length;
     return sink_write(output->sink, header, output->header_bytes, error);
+}
+
+static bool open_format(Output *output, const OutputOptions *options, Error *error)
+{
+    switch (output->format) {
+    case FORMAT_HDR:
+        output->hdr = hdr_stream_create(output->sink, options, output->width, output->height, error);
+        return output->hdr != NULL;
+    case FORMAT_EXR:
+        output->exr = exr_stream_create(output->sink, options, output->width, output->height, error);
+        return output->exr != NULL;
+    case FORMAT_PFM:
+        return open_pfm(output, error);
+    default:
+        return open_png(output, options, error);
+    }
 }
 
 Output *output_open(const char *path, const OutputOptions *options, u32 width, u32 height, Error *error)
@@ -112,11 +136,8 @@ Output *output_open(const char *path, const OutputOptions *options, u32 width, u
     output->format = format;
     output->width = width;
     output->height = height;
-    output->sink = sink_open(path, format == FORMAT_PFM, error);
-    bool done = output->sink != NULL;
-    if (done)
-        done = format == FORMAT_PNG ? open_png(output, options, error) : open_pfm(output, error);
-    if (!done) {
+    output->sink = sink_open(path, format == FORMAT_PFM || format == FORMAT_EXR, error);
+    if (!output->sink || !open_format(output, options, error)) {
         output_abort(output);
         return NULL;
     }
@@ -161,19 +182,38 @@ static bool write_png_rows(Output *output, const f32 *rgb_rows, u32 row_count, E
     return true;
 }
 
+static bool write_stream_rows(Output *output, const f32 *rgb_rows, u32 row_count, Error *error)
+{
+    const size_t count = (size_t)output->width * 3;
+    for (u32 i = 0; i < row_count; i++) {
+        const f32 *row = rgb_rows + i * count;
+        if (!(output->hdr ? hdr_stream_write_row(output->hdr, row, error)
+                          : exr_stream_write_row(output->exr, row, error)))
+            return false;
+    }
+    return true;
+}
+
 bool output_write_rows(Output *output, const f32 *rgb_rows, u32 row_count, Error *error)
 {
     assert(row_count <= output->height - output->rows_written);
-    const bool done = output->format == FORMAT_PNG ? write_png_rows(output, rgb_rows, row_count, error)
-                                                   : write_pfm_rows(output, rgb_rows, row_count, error);
+    const bool done = output->png                    ? write_png_rows(output, rgb_rows, row_count, error)
+                      : output->format == FORMAT_PFM ? write_pfm_rows(output, rgb_rows, row_count, error)
+                                                     : write_stream_rows(output, rgb_rows, row_count, error);
     output->rows_written += row_count;
     return done;
+}
+
+bool output_add_texts(Output *output, const OutputText *texts, size_t count, Error *error)
+{
+    return !output->png || png_stream_add_texts(output->png, texts, count, error);
 }
 
 bool output_commit(Output *output, Error *error)
 {
     assert(output->rows_written == output->height);
-    bool done = output->format != FORMAT_PNG || png_stream_finish(output->png, error);
+    bool done = (!output->png || png_stream_finish(output->png, error)) &&
+                (!output->exr || exr_stream_finish(output->exr, error));
     if (done) {
         done = sink_commit(output->sink, error);
         output->sink = NULL;
@@ -187,6 +227,8 @@ void output_abort(Output *output)
     if (!output)
         return;
     png_stream_destroy(output->png);
+    hdr_stream_destroy(output->hdr);
+    exr_stream_destroy(output->exr);
     quantizer_destroy(output->quantizer);
     sink_abort(output->sink);
     free(output->row);

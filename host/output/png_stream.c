@@ -56,16 +56,15 @@ static bool is_ascii(const char *text)
 }
 
 // tEXt is Latin-1; where UTF-8 says more than ASCII, it goes into iTXt.
-static void set_texts(PngStream *stream, png_textp texts, const OutputOptions *options)
+static void set_texts(PngStream *stream, png_textp room, const OutputText *texts, size_t count)
 {
-    for (size_t i = 0; i < options->text_count; i++) {
-        const char *text = options->texts[i].text;
+    for (size_t i = 0; i < count; i++) {
         // libpng copies both and writes to neither.
-        texts[i].key = (char *)(uintptr_t)options->texts[i].key;
-        texts[i].text = (char *)(uintptr_t)text;
-        texts[i].compression = is_ascii(text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+        room[i].key = (char *)(uintptr_t)texts[i].key;
+        room[i].text = (char *)(uintptr_t)texts[i].text;
+        room[i].compression = is_ascii(texts[i].text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
     }
-    png_set_text(stream->png, stream->info, texts, (int)options->text_count);
+    png_set_text(stream->png, stream->info, room, (int)count);
 }
 
 static bool write_header(PngStream *stream, png_textp texts, const OutputOptions *options, u32 width,
@@ -81,7 +80,7 @@ static bool write_header(PngStream *stream, png_textp texts, const OutputOptions
         png_set_sRGB(png, stream->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else
         png_set_gAMA_fixed(png, stream->info, PNG_FP_1);
-    set_texts(stream, texts, options);
+    set_texts(stream, texts, options->texts, options->text_count);
     png_set_compression_level(png, LEVEL);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, FILTER);
     png_write_info(png, stream->info);
@@ -122,13 +121,33 @@ bool png_stream_write_row(PngStream *stream, const u8 *levels, Error *error)
     return true;
 }
 
+static bool keep_texts(PngStream *stream, png_textp room, const OutputText *texts, size_t count)
+{
+    if (setjmp(png_jmpbuf(stream->png)))
+        return false;
+    set_texts(stream, room, texts, count);
+    return true;
+}
+
+bool png_stream_add_texts(PngStream *stream, const OutputText *texts, size_t count, Error *error)
+{
+    stream->error = error;
+    error->code = ERROR_NONE;
+    png_textp room = calloc(count + 1, sizeof *room);
+    if (!room)
+        return error_set(error, ERROR_MEMORY, "no memory to write a PNG");
+    const bool done = keep_texts(stream, room, texts, count);
+    free(room);
+    return done;
+}
+
 bool png_stream_finish(PngStream *stream, Error *error)
 {
     stream->error = error;
     error->code = ERROR_NONE;
     if (setjmp(png_jmpbuf(stream->png)))
         return false;
-    png_write_end(stream->png, NULL);
+    png_write_end(stream->png, stream->info); // with the texts that are not written yet
     return true;
 }
 

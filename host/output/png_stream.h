@@ -14,6 +14,9 @@ PngStream *png_stream_create(Sink *sink, const OutputOptions *options, u32 width
 // One row of levels, 3 a pixel, 16-bit ones with the high byte first.
 bool png_stream_write_row(PngStream *stream, const u8 *levels, Error *error);
 
+// More texts, which will follow the last row. They are copied.
+bool png_stream_add_texts(PngStream *stream, const OutputText *texts, size_t count, Error *error);
+
 // What follows the last row.
 bool png_stream_finish(PngStream *stream, Error *error);
 

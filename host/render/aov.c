@@ -25,8 +25,13 @@ static const Feature LIGHTING[] = {
     FEATURE_LIGHTS,  FEATURE_POINT,   FEATURE_DIRECTIONAL, FEATURE_SPOT,    FEATURE_SHADOWS, FEATURE_TRANSMITTANCE,
     FEATURE_SPECULAR, FEATURE_PHONG,  FEATURE_BLINN,       FEATURE_EMISSION, FEATURE_AMBIENT, FEATURE_BACKGROUND,
     FEATURE_REFLECT, FEATURE_TRANSMIT, FEATURE_FRESNEL,    FEATURE_BRANCHING,
+    FEATURE_PBR,
 };
-static const Feature TEXTURING[] = {FEATURE_UV, FEATURE_MESH_UVS, FEATURE_CHECKER, FEATURE_CHECKER3D};
+static const Feature TEXTURING[] = {FEATURE_UV,        FEATURE_MESH_UVS, FEATURE_CHECKER,
+                                    FEATURE_CHECKER3D, FEATURE_IMAGE};
+
+static const Feature SAMPLING[] = {FEATURE_SAMPLES, FEATURE_APERTURE, FEATURE_FILTER_TENT, FEATURE_FILTER_TABLE,
+                                   FEATURE_FILTER_LOBES};
 
 static FeatureSet bits_of(const Feature *features, size_t count)
 {
@@ -39,12 +44,13 @@ static FeatureSet bits_of(const Feature *features, size_t count)
 void aov_reduce(Layout *layout, u32 aov)
 {
     FeatureSet dropped = bits_of(LIGHTING, sizeof LIGHTING / sizeof LIGHTING[0]);
-    if (aov != AOV_ALBEDO)
+    const bool mapped = aov == AOV_NORMAL && features_have(layout->features, FEATURE_NORMAL_MAP);
+    if (aov != AOV_ALBEDO && !mapped)
         dropped |= bits_of(TEXTURING, sizeof TEXTURING / sizeof TEXTURING[0]);
     if (aov != AOV_NORMAL)
-        dropped |= feature_bit(FEATURE_MESH_NORMALS);
+        dropped |= feature_bit(FEATURE_MESH_NORMALS) | feature_bit(FEATURE_NORMAL_MAP);
     if (aov == AOV_DEPTH || aov == AOV_POSITION || aov == AOV_ID) {
-        dropped |= feature_bit(FEATURE_SAMPLES);
+        dropped |= bits_of(SAMPLING, sizeof SAMPLING / sizeof SAMPLING[0]);
         layout->params.samples = 1;
     }
     layout->features &= ~dropped;

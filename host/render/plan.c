@@ -13,14 +13,15 @@ enum {
     FIRST_PIXEL_SAMPLES = 2 << 20
 };
 
-static bool can_compile(DeviceShape shape)
+static bool can_compile(DeviceShape shape, MathMode math)
 {
     const bool lanes = shape.lanes == 1 || shape.lanes == 4 || shape.lanes == 8 || shape.lanes == 16;
-    return lanes && shape.batch >= 1 && shape.batch <= BATCH_CPU && shape.batch % shape.lanes == 0 &&
+    const u32 batch_max = math == MATH_DOUBLE ? 1 : BATCH_CPU;
+    return lanes && shape.batch >= 1 && shape.batch <= batch_max && shape.batch % shape.lanes == 0 &&
            shape.group >= 1 && shape.group <= TILE_SLOTS;
 }
 
-DeviceShape plan_device_shape(const DeviceInfo *info)
+DeviceShape plan_device_shape(const DeviceInfo *info, MathMode math)
 {
     DeviceShape shape = { 1, 1, GROUP_GPU };
     if (info->type == DEVICE_CPU) {
@@ -28,9 +29,12 @@ DeviceShape plan_device_shape(const DeviceInfo *info)
         shape.batch = BATCH_CPU;
         shape.group = 1;
     }
+    if (math == MATH_DOUBLE)
+        shape.lanes = shape.batch = 1;
     const char *wish = getenv("CLRT_SHAPE");
     DeviceShape asked;
-    if (wish && sscanf(wish, "%u,%u,%u", &asked.lanes, &asked.batch, &asked.group) == 3 && can_compile(asked))
+    if (wish && sscanf(wish, "%u,%u,%u", &asked.lanes, &asked.batch, &asked.group) == 3 &&
+        can_compile(asked, math))
         shape = asked;
     return shape;
 }
@@ -43,13 +47,14 @@ u32 plan_tiles(const Plan *plan, u32 rows)
 
 u64 plan_state_bytes(const Plan *plan, u32 groups)
 {
-    return (u64)groups * (plan->real_fields + plan->int_fields) * TILE_SLOTS * 4 +
+    const u64 slot = (u64)plan->real_fields * plan->real_bytes + (u64)plan->int_fields * 4;
+    return groups * slot * TILE_SLOTS +
            (u64)groups * plan->shape.group * RAYS_KINDS * 4;
 }
 
 u64 plan_film_bytes(const Plan *plan, u32 rows)
 {
-    return (u64)plan->width * rows * 12 * (plan->samples ? 2 : 1);
+    return (u64)plan->width * rows * (plan->samples ? 12 + 12 + 4 : 12);
 }
 
 u32 plan_first_samples(const Plan *plan)
@@ -74,7 +79,7 @@ static void count_fields(Plan *plan, const Layout *layout)
     const FeatureSet set = layout->features;
     const u32 shadows = features_have(set, FEATURE_SHADOWS), samples = features_have(set, FEATURE_SAMPLES);
     const u32 instances = features_have(set, FEATURE_INSTANCES);
-    const u32 branching = features_have(set, FEATURE_BRANCHING);
+    const u32 branching = features_have(set, FEATURE_BRANCHING), random = features_have(set, FEATURE_HIT_RANDOM);
     const u32 pending = branching ? layout->params.max_depth : 0; // at most one parked ray a depth
     const u32 lights = layout->light_count;
     plan->lights_per_pass = lights < LIGHTS_PER_PASS_MAX ? lights : LIGHTS_PER_PASS_MAX;
@@ -82,22 +87,24 @@ static void count_fields(Plan *plan, const Layout *layout)
     plan->slots_log2 = layout->params.samples >= 16 ? 4 : layout->params.samples >= 4 ? 2 : 0;
     plan->pending_reals = STATE_REALS(shadows, plan->lights_per_pass);
     plan->real_fields = plan->pending_reals + pending * PENDING_REALS;
-    plan->int_fields = STATE_INTS(shadows, branching, instances) + pending * PENDING_INTS(instances);
+    plan->int_fields =
+        STATE_INTS(shadows, branching, instances, random) + pending * PENDING_INTS(instances, random);
 }
 
 // At most `groups`, so many that the buffer of their states is not larger than the device allows.
 static u64 groups_that_fit(const Plan *plan, const DeviceInfo *info, u64 groups)
 {
-    const u64 fields = plan->real_fields > plan->int_fields ? plan->real_fields : plan->int_fields;
-    const u64 most = info->allocation_max / (fields * TILE_SLOTS * 4);
+    const u64 reals = (u64)plan->real_fields * plan->real_bytes, ints = (u64)plan->int_fields * 4;
+    const u64 most = info->allocation_max / ((reals > ints ? reals : ints) * TILE_SLOTS);
     return groups < most ? groups : most > 1 ? most : 1;
 }
 
-bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, u32 width, u32 height,
+bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, MathMode math, u32 width, u32 height,
                u64 memory_limit, Error *error)
 {
     memset(plan, 0, sizeof *plan);
-    plan->shape = plan_device_shape(info);
+    plan->shape = plan_device_shape(info, math);
+    plan->real_bytes = math == MATH_DOUBLE ? 8 : 4;
     plan->width = width;
     count_fields(plan, layout);
     const u64 scene = scene_bytes(layout);

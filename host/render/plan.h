@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "device/list.h"
 #include "layout/layout.h"
+#include "render/math_mode.h"
 #include "shared/state_fields.h"
 
 // How the kernels are compiled for a kind of device.
@@ -17,6 +18,7 @@ typedef struct DeviceShape {
 
 typedef struct Plan {
     DeviceShape shape;
+    u32 real_bytes;      // of a number of a slot: 8 with MATH_DOUBLE, else 4
     u32 width;           // of the crop
     u32 band_rows;       // multiple of the tile's height, or all rows
     u32 groups;          // tiles in flight
@@ -26,12 +28,13 @@ typedef struct Plan {
     bool samples;        // more than one
 } Plan;
 
-// CPUs: vectors as wide as the device's, one work-item a tile. GPUs: a ray a work-item. The environment
-// variable CLRT_SHAPE=LANES,BATCH,GROUP overrides it, for tests that prove that it changes nothing.
-DeviceShape plan_device_shape(const DeviceInfo *info);
+// CPUs: vectors as wide as the device's, one work-item a tile. GPUs, and doubles anywhere: a ray after the
+// other. The environment variable CLRT_SHAPE=LANES,BATCH,GROUP overrides it, for tests that prove that it
+// changes nothing.
+DeviceShape plan_device_shape(const DeviceInfo *info, MathMode math);
 
 // Fails with ERROR_MEMORY where scene, one band and one tile do not fit into memory_limit (0: none) bytes.
-bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, u32 width, u32 height,
+bool plan_make(Plan *plan, const Layout *layout, const DeviceInfo *info, MathMode math, u32 width, u32 height,
                u64 memory_limit, Error *error);
 
 u32 plan_tiles(const Plan *plan, u32 rows);

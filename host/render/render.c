@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/hash.h"
 #include "bundle/bundle.h"
 #include "device/buffer.h"
 #include "device/program.h"
@@ -28,13 +29,15 @@ struct Render {
     RenderStats stats;
 };
 
-size_t render_program_options(FeatureSet features, const DeviceInfo *info, char *text, size_t size)
+size_t render_program_options(FeatureSet features, const DeviceInfo *info, MathMode math, char *text,
+                              size_t size)
 {
-    const DeviceShape shape = plan_device_shape(info);
+    const DeviceShape shape = plan_device_shape(info, math);
+    const bool exact_divide = info->exact_divide && math != MATH_FAST;
     const int head =
-        snprintf(text, size, "%s-w -DLANES=%u -DBATCH=%u -DGROUP=%u",
-                 info->exact_divide ? "-cl-fp32-correctly-rounded-divide-sqrt " : "", shape.lanes,
-                 shape.batch, shape.group);
+        snprintf(text, size, "%s-w -DLANES=%u -DBATCH=%u -DGROUP=%u -DMATH_FAST=%d -DMATH_DOUBLE=%d",
+                 exact_divide ? "-cl-fp32-correctly-rounded-divide-sqrt " : "", shape.lanes, shape.batch,
+                 shape.group, math == MATH_FAST, math == MATH_DOUBLE);
     const size_t used = (size_t)head;
     return used + features_options(features, used < size ? text + used : NULL, used < size ? size - used : 0);
 }
@@ -78,14 +81,16 @@ static bool add_work_buffers(Render *render, Error *error)
     render->stats.band_rows = plan->band_rows;
     render->stats.groups = plan->groups;
     const u64 film = (u64)plan->band_rows * plan->width * 3 * sizeof(f32);
+    const u64 m2 = plan->samples ? (u64)plan->band_rows * plan->width * sizeof(f32) : 0;
     const u64 field = TILE_SLOTS * 4;
     render->rows = malloc(film);
+    render->m2 = m2 ? malloc(m2) : NULL;
     render->counts = malloc(items * RAYS_KINDS * sizeof *render->counts);
-    if (!render->rows || !render->counts)
+    if (!render->rows || !render->counts || (m2 && !render->m2))
         return error_set(error, ERROR_MEMORY, "no memory for %u rows", plan->band_rows);
     Kernel *kernel = render->kernel;
-    return add_buffer(render, &render->state_reals, "state_reals", plan->groups * plan->real_fields * field,
-                      error) &&
+    const u64 reals = (u64)plan->groups * plan->real_fields * TILE_SLOTS * plan->real_bytes;
+    return add_buffer(render, &render->state_reals, "state_reals", reals, error) &&
            add_buffer(render, &render->state_ints, "state_ints", plan->groups * plan->int_fields * field,
                       error) &&
            add_buffer(render, &render->film, "film", film, error) &&
@@ -112,17 +117,27 @@ static void set_params(Render *render)
     render->params.aov = job->aov;
 }
 
+static u64 program_hash(const char *options)
+{
+    Hash hash = hash_start();
+    hash_add(&hash, clrt_kernel_source, clrt_kernel_source_size);
+    hash_add(&hash, options, strlen(options));
+    return hash_value(&hash);
+}
+
 static bool build(Render *render, Error *error)
 {
     const RenderJob *job = &render->job;
     static const char only_aov[] = " -DAOV=1";
     char options[2048];
     const size_t length =
-        render_program_options(render->layout.features, device_info(job->device), options, sizeof options);
+        render_program_options(render->layout.features, device_info(job->device), job->math, options,
+                               sizeof options);
     if (length + sizeof only_aov > sizeof options)
         return error_set(error, ERROR_DEVICE, "the options of the program are too long");
     if (job->aov != AOV_NONE)
         memcpy(options + length, only_aov, sizeof only_aov);
+    render->stats.program_hash = program_hash(options);
     const f64 start = clock_seconds();
     render->program =
         program_create(job->device, clrt_kernel_source, clrt_kernel_source_size, options, error);
@@ -164,8 +179,9 @@ Render *render_create(const RenderJob *job, Error *error)
     render->layout = *job->layout;
     if (job->aov != AOV_NONE)
         aov_reduce(&render->layout, job->aov);
-    bool ok = plan_make(&render->plan, &render->layout, device_info(job->device), job->width, job->height,
-                        job->memory_limit, error);
+    bool ok = math_mode_check(job->math, device_info(job->device), error) &&
+              plan_make(&render->plan, &render->layout, device_info(job->device), job->math, job->width,
+                        job->height, job->memory_limit, error);
     if (ok) {
         set_params(render);
         render->samples_a_launch = plan_first_samples(&render->plan); // whole rounds of the slots
@@ -225,7 +241,7 @@ bool render_step(Render *render, RenderRows *rows, Error *error)
     const u32 band = band_rows_now(render), samples = render->params.samples;
     const u32 left = samples - render->samples_done;
     const u32 now = left < render->samples_a_launch ? left : render->samples_a_launch;
-    *rows = (RenderRows){ NULL, 0 };
+    *rows = (RenderRows){ NULL, NULL, 0 };
     if (render_finished(render))
         return true;
     const f64 start = clock_seconds();
@@ -241,10 +257,22 @@ bool render_step(Render *render, RenderRows *rows, Error *error)
     if (!buffer_download(render->film, 0, render->rows, (u64)band * render->plan.width * 3 * sizeof(f32),
                          error))
         return false;
-    *rows = (RenderRows){ render->rows, band };
+    if (render->film_m2 && !buffer_download(render->film_m2, 0, render->m2,
+                                            (u64)band * render->plan.width * sizeof(f32), error))
+        return false;
+    *rows = (RenderRows){ render->rows, render->m2, band };
     render->band_top += band;
     render->samples_done = 0;
     return true;
+}
+
+bool render_restart(Render *render, u32 seed, Error *error)
+{
+    render->params.seed = seed;
+    render->band_top = 0;
+    render->samples_done = 0;
+    return !render->params_buffer ||
+           buffer_upload(render->params_buffer, 0, &render->params, sizeof render->params, error);
 }
 
 bool render_finished(const Render *render)

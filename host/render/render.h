@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "device/device.h"
 #include "layout/layout.h"
+#include "render/math_mode.h"
 #include "render/aov.h"
 
 typedef struct RenderJob {
@@ -13,10 +14,12 @@ typedef struct RenderJob {
     Device *device;
     u32 left, top, width, height; // the crop; within the image
     u64 memory_limit;             // bytes on the device, 0: what the device has
+    MathMode math;
     u32 aov;                      // AOV_X: what the rows hold
 } RenderJob;
 
 typedef struct RenderStats {
+    u64 program_hash;    // of the program's text and options (base/hash.h)
     f64 compile_seconds; // building the program, and a first launch of nothing, which generates the code
     f64 trace_seconds;   // all launches
     u64 rays[4];         // camera, shadow, mirrored, transmitted
@@ -32,6 +35,9 @@ typedef struct RenderStats {
 // step.
 typedef struct RenderRows {
     f32 *rgb;
+    // One number a pixel: the sum over samples and channels of the squared distance of each sample from their
+    // mean. NULL where there is one sample.
+    const f32 *m2;
     u32 count;
 } RenderRows;
 
@@ -47,12 +53,15 @@ void render_destroy(Render *render);
 bool render_step(Render *render, RenderRows *rows, Error *error);
 
 bool render_finished(const Render *render);
+// From the start again with another seed, at the cost of its samples alone. Statistics go on.
+bool render_restart(Render *render, u32 seed, Error *error);
 // Share of the samples that are done, 0..1.
 f64 render_progress(const Render *render);
 const RenderStats *render_stats(const Render *render);
 
-// Compiler options of the program for these features on a device with this vector width; the number of
-// characters that a large enough text would have.
-size_t render_program_options(FeatureSet features, const DeviceInfo *info, char *text, size_t size);
+// Compiler options of the program for these features and this arithmetic on a device with this vector width;
+// the number of characters that a large enough text would have.
+size_t render_program_options(FeatureSet features, const DeviceInfo *info, MathMode math, char *text,
+                              size_t size);
 
 #endif

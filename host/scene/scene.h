@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "base/types.h"
 #include "base/vec.h"
+#include "image/bitmap.h"
 #include "scene/mesh.h"
 
 // Where a thing stands in the text: index into Scene.files, line and column from 1.
@@ -74,7 +75,8 @@ typedef struct Environment {
     const char *file; // resolved path
     Vec3 intensity;
     f64 rotate; // degrees
-    SourcePos at;
+    const Bitmap *bitmap; // one of Scene.bitmaps, HALF or FLOAT; NULL until assets_load
+    SourcePos at, file_at;
 } Environment;
 
 // ---- light ----------------------------------------------------------------------------------
@@ -113,17 +115,20 @@ typedef struct Texture {
     Vec3 colors[2];  // checkers
     f64 scale[2];    // checker, image: SU SV; checker3d: S in scale[0]. May be any number but 0
     const char *file; // image: resolved path
+    const Bitmap *bitmap; // image: one of Scene.bitmaps; NULL until assets_load
+    SourcePos file_at;    // image
     TextureFilter filter;
-    Encoding encoding;
+    Encoding encoding; // image: of levels; floats are linear
+    u32 channel;       // image: the one that a number reads, 0 .. 2
 } Texture;
 
-// A color, or the texture with this index where texture >= 0.
+// A color, times the texture with this index where texture >= 0.
 typedef struct ColorInput {
     Vec3 color;
     i32 texture;
 } ColorInput;
 
-// A number, or the texture with this index where texture >= 0.
+// A number, times the texture with this index where texture >= 0.
 typedef struct NumberInput {
     f64 value;
     i32 texture;
@@ -238,6 +243,8 @@ typedef struct Scene {
     u32 material_count;
     Mesh *meshes; // of the files that shapes name; filled by assets_load
     u32 mesh_count;
+    Bitmap *bitmaps; // of the files that textures and the environment name; filled by assets_load
+    u32 bitmap_count;
     Shape *shapes;
     u32 shape_count;
     Instance *instances;

@@ -135,7 +135,8 @@ const BlockType OUTPUT_BLOCK = BLOCK_TYPE("output", OUTPUT_PROPERTIES, check_out
 // ---- environment ----------------------------------------------------------------------------
 
 static const Property ENVIRONMENT_PROPERTIES[] = {
-    {"file", VALUE_FILE, AT(Environment, file), .required = true},
+    {"file", VALUE_FILE, AT(Environment, file), .required = true,
+     .position = offsetof(Environment, file_at)},
     {"intensity", VALUE_COLOR, AT(Environment, intensity)},
     {"rotate", VALUE_NUMBERS, AT(Environment, rotate), .count = 1},
 };

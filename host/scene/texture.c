@@ -48,7 +48,8 @@ static bool read_colors(Parser *parser, const Property *property, const Token *n
 static const Property CHECKER_PROPERTIES[] = {COLORS, SCALE(2)};
 static const Property CHECKER3D_PROPERTIES[] = {COLORS, SCALE(1)};
 static const Property IMAGE_PROPERTIES[] = {
-    {"file", VALUE_FILE, AT(Texture, file), .required = true},
+    {"file", VALUE_FILE, AT(Texture, file), .required = true,
+     .position = offsetof(Texture, file_at)},
     SCALE(2),
     {"filter", VALUE_WORD, AT(Texture, filter), .words = FILTERS},
     {"color", VALUE_WORD, AT(Texture, encoding), .words = ENCODINGS},

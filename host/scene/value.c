@@ -287,14 +287,18 @@ bool value_read(Parser *parser, const Property *property, const Token *name, voi
     case VALUE_COLOR_OR_TEXTURE: {
         ColorInput *input = value;
         input->texture = -1;
-        return is_name ? read_defined(parser, property, name, &input->texture)
-                       : read_color(parser, property, name, &input->color);
+        if (!is_name)
+            return read_color(parser, property, name, &input->color);
+        input->color = (Vec3){1, 1, 1};
+        return read_defined(parser, property, name, &input->texture);
     }
     case VALUE_NUMBER_OR_TEXTURE: {
         NumberInput *input = value;
         input->texture = -1;
-        return is_name ? read_defined(parser, property, name, &input->texture)
-                       : value_read_numbers(parser, property, name, &input->value);
+        if (!is_name)
+            return value_read_numbers(parser, property, name, &input->value);
+        input->value = 1;
+        return read_defined(parser, property, name, &input->texture);
     }
     case VALUE_TEXTURE:
     case VALUE_MATERIAL: return read_defined(parser, property, name, value);

@@ -35,8 +35,8 @@ static bool build(Probe *probe, ProbeProgram program, Error *error)
 {
     const bool all = program == PROBE_ALL;
     char options[2048];
-    if (render_program_options(features_of_probe(), device_info(probe->device), options, sizeof options) >=
-        sizeof options)
+    if (render_program_options(features_of_probe(), device_info(probe->device), MATH_EXACT, options,
+                               sizeof options) >= sizeof options)
         return error_set(error, ERROR_DEVICE, "the options of the self-test are too long");
     const char *source = all ? clrt_self_test_source : clrt_known_answers_source;
     const size_t size = all ? clrt_self_test_source_size : clrt_known_answers_source_size;
@@ -75,7 +75,7 @@ Probe *probe_create(Device *device, ProbeProgram program, Error *error)
         return NULL;
     }
     probe->device = device;
-    probe->shape = plan_device_shape(device_info(device));
+    probe->shape = plan_device_shape(device_info(device), MATH_EXACT);
     if (build(probe, program, error) && warm_up(probe, error))
         return probe;
     probe_destroy(probe);

@@ -29,6 +29,10 @@ static inline PrimitiveLanes primitive_splat(global const Primitive *p)
 OUTLINE uint test_primitive(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
                                   int primitive, int instance)
 {
+#if HAS_AREA_LIGHTS
+    if (primitive == hits->left_out)
+        return 0;
+#endif
     global const Primitive *record = &scene->primitives[primitive];
     const PrimitiveLanes lanes = primitive_splat(record);
     uint found = 0;

@@ -68,7 +68,7 @@ static inline vf ray_lanes(const real *x, int k, int other)
 }
 
 // A coordinate of a vertex of the triangles from `first` of the block on, along the axis of ray k.
-static inline vf block_lanes(global const real *vertex, const int *axis, int k, int other, int first)
+static inline vf block_lanes(global const f32 *vertex, const int *axis, int k, int other, int first)
 {
 #if LANES == 16
     return (float16)(vload8(0, vertex + axis[k]), vload8(0, vertex + axis[other]));
@@ -77,7 +77,7 @@ static inline vf block_lanes(global const real *vertex, const int *axis, int k, 
 #endif
 }
 
-static inline v3 block_vertex(global const real *vertex, const BatchShear *s, int k, int other, int first)
+static inline v3 block_vertex(global const f32 *vertex, const BatchShear *s, int k, int other, int first)
 {
     const v3 v = v3_make(block_lanes(vertex, s->axis_x, k, other, first),
                          block_lanes(vertex, s->axis_y, k, other, first),
@@ -98,7 +98,7 @@ typedef struct {
 
 // Tests rays of mask one after the other (vectors of 16: two) against TRIANGLES_A_TEST triangles of a block,
 // those from number `first` on; returns the number of offers.
-static inline int test_triangles(global const real *vertices, const BatchShear *s, const BatchHits *hits,
+static inline int test_triangles(global const f32 *vertices, const BatchShear *s, const BatchHits *hits,
                                  uint mask, int first, BlockOffers *offers)
 {
     int count = 0;
@@ -129,7 +129,7 @@ static inline int test_triangles(global const real *vertices, const BatchShear *
 // Whether ray k passes within the face at the slot, by exact arithmetic.
 OUTLINE bool meets_face(const Hierarchy *scene, const BatchShear *s, int k, int slot)
 {
-    global const real *x = (global const real *)&scene->blocks[slot >> 3] + (slot & 7);
+    global const f32 *x = (global const f32 *)&scene->blocks[slot >> 3] + (slot & 7);
     const v3 org = v3_make((vf)(s->org_x[k]), (vf)(s->org_y[k]), (vf)(s->org_z[k]));
     const vf shear_x = (vf)(s->shear_x[k]), shear_y = (vf)(s->shear_y[k]);
     v3 v[3];
@@ -145,7 +145,7 @@ OUTLINE bool meets_face(const Hierarchy *scene, const BatchShear *s, int k, int 
 static inline uint test_block_by_ray(const Hierarchy *scene, const BatchShear *s, BatchHits *hits, uint mask,
                                      int block, int instance, bool opaque_only)
 {
-    global const real *vertices = (global const real *)&scene->blocks[block];
+    global const f32 *vertices = (global const f32 *)&scene->blocks[block];
     uint found = 0;
     BlockOffers offers;
     for (int first = 0; first < BLOCK_WIDTH; first += TRIANGLES_A_TEST) {
@@ -186,8 +186,8 @@ static inline uint test_block_by_triangle(const Hierarchy *scene, const BatchShe
                                           uint mask, int block, int count, int instance, bool opaque_only)
 {
     const int some = lowest_bit(mask);
-    global const real *base = (global const real *)&scene->blocks[block];
-    global const real *x = base + s->axis_x[some], *y = base + s->axis_y[some], *z = base + s->axis_z[some];
+    global const f32 *base = (global const f32 *)&scene->blocks[block];
+    global const f32 *x = base + s->axis_x[some], *y = base + s->axis_y[some], *z = base + s->axis_z[some];
     uint found = 0;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < BATCH; k += LANES) {

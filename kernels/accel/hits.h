@@ -4,6 +4,7 @@
 #define CLRT_KERNELS_ACCEL_HITS_H
 
 #include "accel/slabs.h"
+#include "base/exact.h"
 #include "shared/instance.h"
 #include "shared/material.h"
 #include "shared/mesh.h"
@@ -44,6 +45,9 @@ typedef struct {
     real tmin[BATCH]; // hits have t > tmin, or t = tmin on a primitive after last_x in the order of ties
     int last_primitive[BATCH]; // surface that the ray has crossed at tmin, or NO_HIT
     int last_instance[BATCH];
+#endif
+#if HAS_AREA_LIGHTS
+    int left_out; // a primitive that is not there for these rays, or NO_HIT
 #endif
 #if COUNT_VISITS
     uint nodes_visited, leaves_visited; // a node or leaf counts once for each ray that reaches it
@@ -206,7 +210,7 @@ static inline vf tmin_after_last(const Hierarchy *scene, const BatchHits *hits, 
     for (int k = 0; k < LANES; k++) {
         const real t = hits->tmin[first + k];
         if (follows_last(scene, hits, first + k, primitive, instance))
-            tmin.s[k] = as_float(as_int(t) - 1);
+            tmin.s[k] = real_before(t);
     }
     return tmin.v;
 #else

@@ -25,6 +25,20 @@
 typedef union { int8 v; int s[8]; } Int8;
 typedef union { float8 v; float s[8]; } Float8;
 
+// Eight reals. Where a box is entered is kept as a float: it only tells which comes first, and BOX_SLACK has room
+// for its rounding.
+#if MATH_DOUBLE
+typedef double8 real8;
+#define REAL8_FROM_FLOAT8(v) convert_double8(v)
+#define FLOAT8_FROM_REAL8(v) convert_float8(v)
+#define INT8_FROM_MASK(m) convert_int8(m)
+#else
+typedef float8 real8;
+#define REAL8_FROM_FLOAT8(v) (v)
+#define FLOAT8_FROM_REAL8(v) (v)
+#define INT8_FROM_MASK(m) (m)
+#endif
+
 // The rays of a batch in one space.
 typedef struct {
     real org_x[BATCH], org_y[BATCH], org_z[BATCH];
@@ -79,31 +93,31 @@ static inline void prepare_slabs(const BatchRays *rays, int k, BatchSlabs *s)
 }
 
 // Eight planes of a node, those that start `offset` bytes into it.
-static inline float8 planes_at(global const BvhNode *node, uint offset)
+static inline real8 planes_at(global const BvhNode *node, uint offset)
 {
-    return vload8(0, (global const float *)((global const char *)node + offset));
+    return REAL8_FROM_FLOAT8(vload8(0, (global const f32 *)((global const char *)node + offset)));
 }
 
 // Which boxes ray k reaches before tfar, and where it enters them.
 static inline int8 test_boxes(global const BvhNode *node, const BatchSlabs *s, int k, real tfar, float8 *enters)
 {
     const uint x = s->first_x[k], y = s->first_y[k], z = s->first_z[k];
-    const float8 inv_x = (float8)(s->inv_x[k]), inv_y = (float8)(s->inv_y[k]), inv_z = (float8)(s->inv_z[k]);
-    const float8 near_x = fma(planes_at(node, x), inv_x, (float8)(s->near_x[k]));
-    const float8 near_y = fma(planes_at(node, y), inv_y, (float8)(s->near_y[k]));
-    const float8 near_z = fma(planes_at(node, z), inv_z, (float8)(s->near_z[k]));
-    const float8 far_x = fma(planes_at(node, 96 - x), inv_x, (float8)(s->far_x[k]));
-    const float8 far_y = fma(planes_at(node, 160 - y), inv_y, (float8)(s->far_y[k]));
-    const float8 far_z = fma(planes_at(node, 224 - z), inv_z, (float8)(s->far_z[k]));
-    float8 tnear = (float8)(0.0f), tend = (float8)(tfar * BOX_SLACK);
+    const real8 inv_x = (real8)(s->inv_x[k]), inv_y = (real8)(s->inv_y[k]), inv_z = (real8)(s->inv_z[k]);
+    const real8 near_x = fma(planes_at(node, x), inv_x, (real8)(s->near_x[k]));
+    const real8 near_y = fma(planes_at(node, y), inv_y, (real8)(s->near_y[k]));
+    const real8 near_z = fma(planes_at(node, z), inv_z, (real8)(s->near_z[k]));
+    const real8 far_x = fma(planes_at(node, 96 - x), inv_x, (real8)(s->far_x[k]));
+    const real8 far_y = fma(planes_at(node, 160 - y), inv_y, (real8)(s->far_y[k]));
+    const real8 far_z = fma(planes_at(node, 224 - z), inv_z, (real8)(s->far_z[k]));
+    real8 tnear = (real8)(0.0f), tend = (real8)(tfar * BOX_SLACK);
     tnear = near_x > tnear ? near_x : tnear;
     tnear = near_y > tnear ? near_y : tnear;
     tnear = near_z > tnear ? near_z : tnear;
     tend = far_x < tend ? far_x : tend;
     tend = far_y < tend ? far_y : tend;
     tend = far_z < tend ? far_z : tend;
-    *enters = tnear;
-    return tnear <= tend;
+    *enters = FLOAT8_FROM_REAL8(tnear);
+    return INT8_FROM_MASK(tnear <= tend);
 }
 
 #if LANES > 1
@@ -184,7 +198,7 @@ static inline uint test_boxes_bounds(global const BvhNode *node, const PacketBou
 
 static inline real plane_at(global const BvhNode *node, uint offset, int slot)
 {
-    return *((global const real *)((global const char *)node + offset) + slot);
+    return *((global const f32 *)((global const char *)node + offset) + slot);
 }
 
 // The rays of mask, all of one octant, that reach one box.

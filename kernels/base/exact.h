@@ -5,11 +5,32 @@
 
 #include "base/lanes.h"
 
-#define VF_SMALLEST_NORMAL 0x1p-126f
-// Added to |x| < 2^22 and taken away again it rounds x to an integer, which the low bits of the sum hold.
+#define VF_SMALLEST_NORMAL REAL(0x1p-126f, 0x1p-1022)
+// Of floats. Added to |x| < 2^22 and taken away again it rounds x to an integer, which the low bits of the sum hold.
 #define VF_ROUND_MAGIC 0x1.8p+23f
 
-// hi + lo, where hi is that sum rounded to nearest: about 48 bits.
+// The number after x, away from zero, where `outward`; else the one before. x: normal or infinite, not 0.
+static inline vf vf_neighbour(vf x, vm outward)
+{
+#if MATH_DOUBLE
+    return as_double(outward ? as_long(x) + 1 : as_long(x) - 1);
+#else
+    const vi bits = VF_AS_VI(x);
+    return VI_AS_VF(outward ? bits + 1 : bits - 1);
+#endif
+}
+
+// The same for one number, towards zero.
+static inline real real_before(real x)
+{
+#if MATH_DOUBLE
+    return as_double(as_long(x) - 1);
+#else
+    return as_float(as_int(x) - 1);
+#endif
+}
+
+// hi + lo, where hi is that sum rounded to nearest: about 48 bits of floats.
 typedef struct { vf hi, lo; } vf2;
 
 static inline vf2 vf2_make(vf hi, vf lo) { vf2 r; r.hi = hi; r.lo = lo; return r; }
@@ -37,7 +58,7 @@ static inline vf2 two_product(vf a, vf b)
     return vf2_make(product, fma(a, b, -product));
 }
 
-// The bounds below, in u = 2^-24, are those of Joldes, Muller and Popescu, "Tight and Rigorous Error Bounds
+// The bounds below, in u (2^-24 of floats), are those of Joldes, Muller and Popescu, "Tight and Rigorous Error Bounds
 // for Basic Building Blocks of Double-Word Arithmetic", 2017: their algorithms 4, 6, 9 and 12.
 
 // Relative error at most 2 u^2.

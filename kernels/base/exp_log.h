@@ -7,6 +7,32 @@
 
 #include "base/exact.h"
 
+#if MATH_DOUBLE || MATH_FAST
+// What the device has: doubles within its few ulp, or floats as fast as it can.
+#if MATH_DOUBLE
+#define BUILT_IN(name) name
+#else
+#define BUILT_IN(name) native_##name
+#endif
+
+static inline vf vf_exp2(vf x) { return BUILT_IN(exp2)(x); }
+static inline vf vf_exp(vf x) { return BUILT_IN(exp)(x); }
+static inline vf vf_log(vf x) { return BUILT_IN(log)(x); }
+static inline vf vf_log2(vf x) { return BUILT_IN(log2)(x); }
+
+static inline vf vf_pow(vf x, vf y)
+{
+#if MATH_DOUBLE
+    const vf inside = pow(x, y);
+#else
+    const vf inside = native_exp2(y * native_log2(x));
+#endif
+    const vf outside = x < (vf)(VF_SMALLEST_NORMAL) ? (vf)(0.0f) : x;
+    const vm normal = (x >= (vf)(VF_SMALLEST_NORMAL)) & (x < (vf)(INFINITY));
+    const vf result = normal ? inside : outside;
+    return y == (vf)(0.0f) ? (vf)(1.0f) : result;
+}
+#else
 // 2^(whole + r), where magic = whole + VF_ROUND_MAGIC. The result is normal: whole >= -126 with r >= 0 there,
 // and whole <= 128 with r < 0 there; otherwise it is garbage.
 static inline vf vf_exp2_parts(vf magic, vf r)
@@ -151,5 +177,6 @@ static inline vf vf_pow(vf x, vf y)
     const vf result = normal ? inside : outside;
     return y == (vf)(0.0f) ? (vf)(1.0f) : result;
 }
+#endif
 
 #endif

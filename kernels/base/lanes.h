@@ -8,16 +8,34 @@
 #ifndef CLRT_KERNELS_BASE_LANES_H
 #define CLRT_KERNELS_BASE_LANES_H
 
+#include "shared/types.h"
+
+#if MATH_FAST
+#pragma OPENCL FP_CONTRACT ON
+#else
 #pragma OPENCL FP_CONTRACT OFF
+#endif
 
 // For functions with much code that are called from several places or once a LANES rays: a call costs nothing
 // there, and one copy of the code keeps the time of compiling down (a third of it for the reference scene).
 #define OUTLINE static __attribute__((noinline))
 
+// Numbers of the scene and of the film are floats in memory (f32), whatever a real is. REAL chooses between the
+// two roundings of a constant.
+#if MATH_DOUBLE
+#if LANES != 1
+#error "doubles are for LANES 1"
+#endif
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double real;
+#define REAL(as_float, as_double) (as_double)
+#else
 typedef float real;
+#define REAL(as_float, as_double) (as_float)
+#endif
 
 #if LANES == 1
-typedef float vf;
+typedef real vf;
 typedef int vi;
 typedef uint vu;
 typedef int vm;
@@ -28,15 +46,17 @@ typedef int vm;
 #define VI_STORE(v, p) (*(p) = (v))
 #define VU_LOAD(p) (*(p))
 #define VU_STORE(v, p) (*(p) = (v))
+#if !MATH_DOUBLE
 #define VI_AS_VF(v) as_float(v)
 #define VF_AS_VI(v) as_int(v)
 #define VF_AS_VU(v) as_uint(v)
 #define VU_AS_VF(v) as_float(v)
+#endif
 #define VI_FROM_VF(v) convert_int(v)
 #define VU_FROM_VI(v) ((uint)(v))
 #define VI_FROM_VU(v) ((int)(v))
-#define VF_FROM_VI(v) ((float)(v))
-#define VF_FROM_VU(v) ((float)(v))
+#define VF_FROM_VI(v) ((vf)(v))
+#define VF_FROM_VU(v) ((vf)(v))
 #elif LANES == 4
 #define LANE_SUFFIX(name) name##4
 #define LANE_IOTA (int4)(0, 1, 2, 3)
@@ -114,7 +134,7 @@ static inline vf vf_max(vf a, vf b) { return a > b ? a : b; }
 static inline vf vf_clamp(vf x, real low, real high) { return vf_min(vf_max(x, (vf)(low)), (vf)(high)); }
 
 // p[index] for each lane; every index must be valid, also those of lanes that do not matter.
-OUTLINE vf vf_gather(global const real *p, vi index)
+OUTLINE vf vf_gather(global const f32 *p, vi index)
 {
     LanesI i;
     LanesF r;
@@ -123,6 +143,12 @@ OUTLINE vf vf_gather(global const real *p, vi index)
         r.s[k] = p[i.s[k]];
     return r.v;
 }
+
+#if MATH_DOUBLE
+static inline vf real_gather(global const real *p, vi index) { return p[index]; }
+#else
+#define real_gather vf_gather
+#endif
 
 OUTLINE vi vi_gather(global const int *p, vi index)
 {

@@ -3,19 +3,19 @@
 #ifndef CLRT_KERNELS_BASE_OFFSET_H
 #define CLRT_KERNELS_BASE_OFFSET_H
 
+#include "base/exact.h"
 #include "base/vec.h"
 
 // Half an ulp of 1: the largest relative error of one rounding.
-#define ROUNDING 5.9604645e-8f
+#define ROUNDING REAL(0x1p-24f, 0x1p-53)
 
-// The float next to x, away from zero where `away` has the sign of x, towards zero else; x itself where
+// The number next to x, away from zero where `away` has the sign of x, towards zero else; x itself where
 // away = 0. Zero goes to the smallest normal number, so that devices that flush denormals agree.
 static inline vf next_towards(vf x, vf away)
 {
-    const vf smallest = (vf)(1.17549435e-38f);
-    const vi bits = VF_AS_VI(x);
+    const vf smallest = (vf)(VF_SMALLEST_NORMAL);
     const vm outward = (x > 0.0f) == (away > 0.0f);
-    const vf moved = VI_AS_VF(outward ? bits + 1 : bits - 1);
+    const vf moved = vf_neighbour(x, outward);
     const vf stepped = fabs(x) < smallest ? (away > 0.0f ? smallest : -smallest) : moved;
     return away == 0.0f ? x : stepped;
 }

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 
 typedef struct {
-    global const real *base;
+    global const f32 *base;
     vi offset; // of the lane's record in numbers
     int first;
     bool uniform;
@@ -17,7 +17,7 @@ static inline Row row_make(global const void *records, vi index, int numbers)
     Row row;
     LanesI lanes;
     lanes.v = index * numbers;
-    row.base = (global const real *)records;
+    row.base = (global const f32 *)records;
     row.offset = lanes.v;
     row.first = lanes.s[0];
     row.uniform = vm_all(lanes.v == (vi)(row.first));

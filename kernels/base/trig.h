@@ -19,6 +19,21 @@
 
 typedef struct { vf sine, cosine; } SineCosine;
 
+#if MATH_DOUBLE || MATH_FAST
+// What the device has: doubles within its few ulp, or floats as fast as it can.
+static inline SineCosine vf_sincos(vf x)
+{
+    SineCosine result;
+#if MATH_DOUBLE
+    result.sine = sin(x);
+    result.cosine = cos(x);
+#else
+    result.sine = native_sin(x);
+    result.cosine = native_cos(x);
+#endif
+    return result;
+}
+#else
 // Within 1.55 ulp (1.54 measured) for |x| <= 2^17 radians; of -0 the sine is 0. Beyond, where the floats are
 // too far apart to tell a direction, the sine is 0 and the cosine 1; infinities and NaN give NaN.
 // Reduction by multiples of pi/2 in three parts: Cody and Waite, "Software Manual for the Elementary
@@ -51,10 +66,15 @@ static inline SineCosine vf_sincos(vf x)
     result.cosine = VU_AS_VF(VF_AS_VU(odd ? s : c) ^ cosine_sign);
     return result;
 }
+#endif
 
 static inline vf vf_sin(vf x) { return vf_sincos(x).sine; }
 static inline vf vf_cos(vf x) { return vf_sincos(x).cosine; }
 
+#if MATH_DOUBLE
+static inline vf vf_acos(vf x) { return acos(vf_min(vf_max(x, (vf)(-1.0f)), (vf)(1.0f))); }
+static inline vf vf_atan2(vf y, vf x) { return atan2(y, x); }
+#else
 // Within 1.25 ulp (1.13) on [-1, 1]; beyond, as at the end of the interval, so that a cosine with a rounding
 // error is an angle. NaN gives NaN.
 static inline vf vf_acos(vf x)
@@ -112,5 +132,6 @@ static inline vf vf_atan2(vf y, vf x)
     const vf angle = base + (signed_t + rest);
     return VI_AS_VF(VF_AS_VI(angle) ^ (VF_AS_VI(y) & sign_bit));
 }
+#endif
 
 #endif

@@ -42,8 +42,12 @@ static inline vf difference_of_products(vf a, vf b, vf c, vf d)
 // overflow or underflow).
 static inline v3 v3_normalize(v3 a)
 {
+#if MATH_FAST
+    return v3_scale(a, native_rsqrt(v3_dot(a, a)));
+#else
     const vf inverse = (vf)(1.0f) / sqrt(v3_dot(a, a));
     return v3_scale(a, inverse);
+#endif
 }
 
 #endif

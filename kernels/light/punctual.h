@@ -11,11 +11,16 @@
 typedef struct {
     v3 dir;       // unit, towards the light
     vf distance;  // INFINITY for a directional light
-    v3 intensity; // that arrives, attenuation and cone included
+    v3 intensity; // that arrives, attenuation and cone included; of an area light: irradiance over pi
+#if HAS_AREA_LIGHTS
+    bool area;
+#endif
 } LightSample;
 
+#if HAS_POINT || HAS_DIRECTIONAL || HAS_SPOT
+
 // The light as point sees it. A point at the light's very position receives nothing.
-OUTLINE LightSample light_sample(global const LightRecord *light, v3 point)
+OUTLINE LightSample punctual_sample(global const LightRecord *light, v3 point)
 {
     LightSample sample;
     vf gain = (vf)(1.0f);
@@ -56,7 +61,11 @@ OUTLINE LightSample light_sample(global const LightRecord *light, v3 point)
 #endif
     const f32x4 intensity = light->intensity;
     sample.intensity = v3_make(gain * intensity.x, gain * intensity.y, gain * intensity.z);
+#if HAS_AREA_LIGHTS
+    sample.area = false;
+#endif
     return sample;
 }
+#endif
 
 #endif

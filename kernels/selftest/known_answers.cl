@@ -3,7 +3,7 @@
 
 #include "selftest/numbers.h"
 
-kernel void self_test_numbers(global const real *numbers_in, global real *numbers_out, uint function,
+kernel void self_test_numbers(global const f32 *numbers_in, global f32 *numbers_out, uint function,
                               uint stride, uint count)
 {
     const uint i = (uint)get_global_id(0) * LANES;

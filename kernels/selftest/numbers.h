@@ -8,12 +8,12 @@
 #include "base/vec.h"
 #include "shared/self_test.h"
 
-static inline v3 column3(global const real *p, uint stride)
+static inline v3 column3(global const f32 *p, uint stride)
 {
     return v3_make(VF_LOAD(p), VF_LOAD(p + stride), VF_LOAD(p + 2 * stride));
 }
 
-static inline void store_column3(v3 a, global real *p, uint stride)
+static inline void store_column3(v3 a, global f32 *p, uint stride)
 {
     VF_STORE(a.x, p);
     VF_STORE(a.y, p + stride);
@@ -21,7 +21,7 @@ static inline void store_column3(v3 a, global real *p, uint stride)
 }
 
 // in: of the first of LANES places.
-static inline v3 apply_function(uint function, global const real *in, uint stride)
+static inline v3 apply_function(uint function, global const f32 *in, uint stride)
 {
     const vf a = VF_LOAD(in), b = VF_LOAD(in + stride);
     const vf c = VF_LOAD(in + 2 * stride), d = VF_LOAD(in + 3 * stride);
@@ -41,7 +41,7 @@ static inline v3 apply_function(uint function, global const real *in, uint strid
     case FUNCTION_EXPRESSION: r.x = a * b - c * d; break;
     case FUNCTION_PRODUCTS: r.x = difference_of_products(a, b, c, d); break;
     case FUNCTION_NORMALIZE: r = v3_normalize(v3_make(a, b, c)); break;
-    case FUNCTION_UNIT: r.x = random_unit(VF_AS_VU(a)); break;
+    case FUNCTION_UNIT: r.x = random_unit(VU_LOAD((global const uint *)in)); break;
     case FUNCTION_LEAVE:
         r = offset_origin(column3(in, stride), column3(in + 3 * stride, stride),
                           column3(in + 6 * stride, stride), column3(in + 9 * stride, stride));

@@ -17,15 +17,18 @@ static inline vf mean_of_samples(vf value, vf samples)
     n.v = samples;
     for (int k = 0; k < LANES; k++) {
         const uint count = (uint)n.s[k];
-        real high = 0.0f, low = 0.0f;
+        const vf each = (vf)(x.s[k]);
+        vf high = (vf)(0.0f), low = (vf)(0.0f);
         for (uint i = 0; i < count; i++)
-            sum_add(&high, &low, x.s[k]);
-        x.s[k] = (high + low) / (real)count;
+            sum_add(&high, &low, each);
+        LanesF mean;
+        mean.v = (high + low) / (real)count;
+        x.s[k] = mean.s[0];
     }
     return x.v;
 }
 
-static inline void probe_load(global const real *reals, global const int *ints, uint stride, BatchRays *rays,
+static inline void probe_load(global const f32 *reals, global const int *ints, uint stride, BatchRays *rays,
                               BatchHits *hits)
 {
     for (int k = 0; k < BATCH; k += LANES) {
@@ -113,7 +116,7 @@ OUTLINE void probe_walk(const Hierarchy *scene, const BatchRays *rays, BatchHits
 // Everything that shading makes of the hits of LANES rays.
 OUTLINE void probe_shade(const Hierarchy *scene, const Shading *shading, global const LightRecord *lights,
                          uint light_count, const BatchRays *rays, const BatchHits *hits, int k,
-                         global real *out, uint stride)
+                         global f32 *out, uint stride)
 {
     const v3 org = v3_make(VF_LOAD(&rays->org_x[k]), VF_LOAD(&rays->org_y[k]), VF_LOAD(&rays->org_z[k]));
     const v3 dir = v3_make(VF_LOAD(&rays->dir_x[k]), VF_LOAD(&rays->dir_y[k]), VF_LOAD(&rays->dir_z[k]));
@@ -129,10 +132,10 @@ OUTLINE void probe_shade(const Hierarchy *scene, const Shading *shading, global 
     store_column3(hit.point, out + PROBE_P * stride, stride);
     store_column3(hit.error, out + PROBE_ERROR * stride, stride);
     store_column3(v3_select(hit.inside, v3_neg(hit.ng), hit.ng), out + PROBE_NG * stride, stride);
-    VF_STORE(hit.u, out + PROBE_U * stride);
-    VF_STORE(hit.v, out + PROBE_V * stride);
-    VF_STORE(hit.u_whole, out + PROBE_U_WHOLE * stride);
-    VF_STORE(hit.v_whole, out + PROBE_V_WHOLE * stride);
+    VF_STORE(hit.at.u, out + PROBE_U * stride);
+    VF_STORE(hit.at.v, out + PROBE_V * stride);
+    VF_STORE(hit.at.u_whole, out + PROBE_U_WHOLE * stride);
+    VF_STORE(hit.at.v_whole, out + PROBE_V_WHOLE * stride);
     VF_STORE(color.x, out + PROBE_COLOR * stride);
     VF_STORE(lit, out + PROBE_LIT * stride);
     store_column3(scatter.reflect_dir, out + PROBE_REFLECT * stride, stride);

@@ -4,11 +4,11 @@
 
 #include "selftest/rays.h"
 
-kernel void self_test_numbers(global const real *numbers_in, global real *numbers_out, uint function,
+kernel void self_test_numbers(global const f32 *numbers_in, global f32 *numbers_out, uint function,
                               uint stride, uint count)
 {
     const uint i = (uint)get_global_id(0) * LANES;
-    global const real *in = numbers_in + i;
+    global const f32 *in = numbers_in + i;
     if (i >= count)
         return;
     if (function == FUNCTION_MEAN)
@@ -24,7 +24,7 @@ kernel void self_test_rays(global const Primitive *primitives, global const Prim
                            global const TextureRecord *textures, global const ObjectFrame *frames,
                            global const LightRecord *lights, uint primitive_count, uint block_count,
                            uint mesh_run_count, uint plane_count, uint light_count, uint root,
-                           global const real *ray_reals, global const int *ray_ints, global real *hit_reals,
+                           global const f32 *ray_reals, global const int *ray_ints, global f32 *hit_reals,
                            global int *hit_ints, uint stride, uint count, uint mode, uint steps, uint shade)
 {
     const uint i = (uint)get_global_id(0) * BATCH;
@@ -63,7 +63,7 @@ kernel void self_test_rays(global const Primitive *primitives, global const Prim
         return;
     Shading shading;
     shading.materials = materials;
-    shading.textures = textures;
+    shading.textures.records = textures;
     shading.frames = frames;
     for (int k = 0; k < BATCH; k += LANES)
         probe_shade(&scene, &shading, lights, light_count, &rays, &hits, k, hit_reals + i + k, stride);

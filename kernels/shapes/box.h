@@ -80,6 +80,11 @@ static inline void box_uv(const PrimitiveLanes *p, vi face, SurfaceLanes *s)
     const vf along = on_x ? q.z : q.x;
     const vm left = (on_x & positive) | (!on_x & !positive);
     surface_uv(s, uv_clamp(left ? 1.0f - along : along), uv_clamp(on_y ? 1.0f - q.z : q.y));
+#if HAS_NORMAL_MAP
+    const vf turn = left ? (vf)(-1.0f) : (vf)(1.0f), none = (vf)(0.0f);
+    surface_tangents(p, v3_make(on_x ? none : turn, none, on_x ? turn : none),
+                     v3_select(on_y, v3_neg(v3_axis(2)), v3_axis(1)), s);
+#endif
 }
 #endif
 

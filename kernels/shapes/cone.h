@@ -49,7 +49,7 @@ static inline RoundSolid cone_solid(const PrimitiveLanes *p, const RayLanes *ray
     const v3 from = o;
     const vf dd = v3_dot(d, d);
     vf shift = closest_shift(&o, d, dd, (vf)(0.0f));
-    const vm near = v3_dot(from, from) < 16.0f * v3_dot(o, o);
+    const vm near = v3_dot(from, from) < 4.0f * v3_dot(o, o);
     shift = near ? (vf)(0.0f) : shift;
     o = v3_select(near, from, o);
     const vf slope = -0.5f * p->p1;
@@ -94,6 +94,14 @@ static inline void surface_cone(const PrimitiveLanes *p, const RayLanes *ray, vf
     const vf end_u = uv_clamp(fma(on_top ? across : -across, (vf)(0.5f), (vf)(0.5f)));
     surface_uv(s, on_wall ? uv_turn(q.y, q.x) : end_u,
                uv_clamp(fma(on_wall ? height : up, (vf)(0.5f), (vf)(0.5f))));
+#endif
+#if HAS_NORMAL_MAP
+    // At the apex, those of u = 0.
+    const vf x = round ? q.x / rho : (vf)(1.0f), y = round ? q.y / rho : (vf)(0.0f);
+    const v3 slant = v3_make(x * p->p1 * -0.5f, y * p->p1 * -0.5f, (vf)(1.0f));
+    const v3 right = v3_select(on_top, v3_axis(0), v3_neg(v3_axis(0)));
+    surface_tangents(p, v3_select(on_wall, v3_make(-y, x, (vf)(0.0f)), right),
+                     v3_select(on_wall, v3_select(flipped, v3_neg(slant), slant), v3_axis(1)), s);
 #endif
 }
 

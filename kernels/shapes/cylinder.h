@@ -20,7 +20,7 @@ static inline RoundSolid round_solid(const PrimitiveLanes *p, const RayLanes *ra
     RoundSolid s;
     s.o = canonical_point(p, ray->org);
     s.d = canonical_direction(p, ray->dir);
-    s.shift = closest_shift(&s.o, s.d, v3_dot(s.d, s.d), (vf)(16.0f));
+    s.shift = closest_shift(&s.o, s.d, v3_dot(s.d, s.d), (vf)(4.0f));
     const vf inverse = (vf)(1.0f) / s.d.z;
     const vm parallel = fabs(inverse) == (vf)(INFINITY);
     const vm between = fabs(s.o.z) <= (vf)(1.0f);
@@ -97,6 +97,10 @@ static inline void surface_cylinder(const PrimitiveLanes *p, const RayLanes *ray
 #if HAS_UV
     surface_uv(s, on_wall ? uv_turn(q.y, q.x) : uv_clamp(fma(q.x * end, (vf)(0.5f), (vf)(0.5f))),
                uv_clamp(fma(on_wall ? q.z : q.y, (vf)(0.5f), (vf)(0.5f))));
+#endif
+#if HAS_NORMAL_MAP
+    surface_tangents(p, v3_select(on_wall, v3_make(-q.y, q.x, (vf)(0.0f)), v3_scale(v3_axis(0), end)),
+                     v3_select(on_wall, v3_axis(2), v3_axis(1)), s);
 #endif
 }
 

@@ -22,6 +22,9 @@ static inline void surface_disk(const PrimitiveLanes *p, const RayLanes *ray, vf
     surface_uv(s, uv_clamp(fma(v3_dot(p->row0, f), (vf)(0.5f), (vf)(0.5f))),
                uv_clamp(fma(v3_dot(p->row1, f), (vf)(0.5f), (vf)(0.5f))));
 #endif
+#if HAS_NORMAL_MAP
+    surface_tangents(p, v3_axis(0), v3_axis(1), s);
+#endif
 }
 
 #endif

@@ -20,6 +20,9 @@ static inline void surface_ellipsoid(const PrimitiveLanes *p, const RayLanes *ra
 #if HAS_UV
     sphere_uv(s, unit);
 #endif
+#if HAS_NORMAL_MAP
+    sphere_tangents(p, unit, s);
+#endif
 }
 
 #endif

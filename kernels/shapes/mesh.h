@@ -5,6 +5,7 @@
 #include "base/offset.h"
 #include "base/table.h"
 #include "shapes/surface.h"
+#include "shapes/tangents.h"
 #include "shapes/woop.h"
 #include "shared/mesh.h"
 
@@ -37,14 +38,6 @@ static inline FaceWeights face_lanes_weights(const FaceLanes *f, v3 org, v3 dir)
                         shear_apply(&shear, f->c, org));
 }
 
-// a of any length but 0, scaled so that its products neither overflow nor vanish.
-static inline v3 scaled_to_one(v3 a)
-{
-    const v3 m = v3_abs(a);
-    const vf largest = vf_max(m.x, vf_max(m.y, m.z));
-    return v3_scale(a, (vf)(1.0f) / largest);
-}
-
 // Unit normal (b-a) x (c-a); of a face so thin that floats know none, the direction it is seen from.
 static inline v3 face_normal(const FaceLanes *f, v3 dir)
 {
@@ -70,6 +63,10 @@ static inline void surface_mesh_face(const FaceLanes *f, v3 org, v3 dir, Surface
     const v3 terms = v3_fma(v3_abs(f->c), s->b2, v3_fma(v3_abs(f->b), s->b1, v3_scale(v3_abs(f->a), b0)));
     s->error = v3_scale(v3_abs(terms), (vf)(8.0f * ROUNDING));
     s->ng = face_normal(f, dir);
+#if HAS_NORMAL_MAP
+    s->tangent_u = v3_sub(f->b, f->a);
+    s->tangent_v = v3_sub(f->c, f->a);
+#endif
 #if HAS_UV
     surface_uv(s, s->b1, s->b2);
 #endif

@@ -29,6 +29,9 @@ static inline void surface_plane(const PrimitiveLanes *p, const RayLanes *ray, v
     s->u_whole = p->c.x;
     s->v_whole = p->c.z;
 #endif
+#if HAS_NORMAL_MAP
+    surface_tangents(p, v3_axis(0), v3_axis(1), s);
+#endif
 }
 
 #endif

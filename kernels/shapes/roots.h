@@ -8,6 +8,7 @@
 
 #include "base/ray.h"
 #include "shapes/surface.h"
+#include "shapes/tangents.h"
 
 typedef struct {
     vf near, far;

@@ -34,10 +34,13 @@
 #if HAS_TRIANGLE
 #include "shapes/triangle.h"
 #endif
+#if HAS_RECTANGLE
+#include "shapes/rectangle.h"
+#endif
 
 #define SHAPE_KINDS                                                                                          \
     (HAS_SPHERE + HAS_GIANT_SPHERE + HAS_ELLIPSOID + HAS_PLANE + HAS_BOX + HAS_TETRAHEDRON + HAS_DISK +      \
-     HAS_CYLINDER + HAS_CONE + HAS_TORUS + HAS_TRIANGLE)
+     HAS_CYLINDER + HAS_CONE + HAS_TORUS + HAS_TRIANGLE + HAS_RECTANGLE)
 
 // The smallest root t > max(0, tmin) of one primitive for each ray, INFINITY where there is none. Rays that
 // start on the primitive (self) do not meet it at their origin. Invalid rays (NaN, infinite) hit nothing.
@@ -87,6 +90,10 @@ static inline vf intersect_primitive(uint kind, const PrimitiveLanes *p, const R
     if (SHAPE_KINDS == 1 || kind == PRIMITIVE_TORUS)
         return intersect_torus(p, ray);
 #endif
+#if HAS_RECTANGLE
+    if (SHAPE_KINDS == 1 || kind == PRIMITIVE_RECTANGLE)
+        return intersect_rectangle(p, ray);
+#endif
     return (vf)(INFINITY);
 }
 
@@ -105,6 +112,10 @@ static inline void surface_select(vm m, const SurfaceLanes *from, SurfaceLanes *
     to->b1 = m ? from->b1 : to->b1;
     to->b2 = m ? from->b2 : to->b2;
 #endif
+#if HAS_NORMAL_MAP
+    to->tangent_u = v3_select(m, from->tangent_u, to->tangent_u);
+    to->tangent_v = v3_select(m, from->tangent_v, to->tangent_v);
+#endif
 }
 
 static inline SurfaceLanes surface_zero(void)
@@ -116,6 +127,9 @@ static inline SurfaceLanes surface_zero(void)
 #endif
 #if HAS_TRIANGLE || HAS_MESH
     s.b1 = s.b2 = (vf)(0.0f);
+#endif
+#if HAS_NORMAL_MAP
+    s.tangent_u = s.tangent_v = v3_splat(0.0f);
 #endif
     return s;
 }
@@ -167,6 +181,10 @@ static inline void surface_of_kind(uint kind, const PrimitiveLanes *p, const Ray
 #if HAS_TORUS
     if (SHAPE_KINDS == 1 || kind == PRIMITIVE_TORUS)
         surface_torus(p, ray, t, s);
+#endif
+#if HAS_RECTANGLE
+    if (SHAPE_KINDS == 1 || kind == PRIMITIVE_RECTANGLE)
+        surface_rectangle(p, ray, t, s);
 #endif
 }
 

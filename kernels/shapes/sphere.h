@@ -12,7 +12,7 @@
 static inline Interval sphere_roots(v3 f, v3 d, vf r, vm self)
 {
     const vf dd = v3_dot(d, d);
-    const vf shift = closest_shift(&f, d, dd, 16.0f * r * r);
+    const vf shift = closest_shift(&f, d, dd, 4.0f * r * r);
     const vf distance = sqrt(v3_dot(f, f));
     const vf c = self ? (vf)(0.0f) : (distance - r) * (distance + r);
     const Interval roots = quadratic_roots(dd, v3_dot(f, d), c);
@@ -31,10 +31,21 @@ static inline vf intersect_sphere(const PrimitiveLanes *p, const RayLanes *ray)
 // From the unit normal along object axes. The arc tangent keeps the polar angle accurate at the poles.
 static inline void sphere_uv(SurfaceLanes *s, v3 n)
 {
-    const vf turn = vf_atan2(n.x, n.z) * 0.15915494f + 0.5f;
+    const vf turn = vf_atan2(n.x, n.z) * TURNS_A_RADIAN + 0.5f;
     const vf rho = sqrt(fma(n.x, n.x, n.z * n.z));
     surface_uv(s, turn >= (vf)(1.0f) ? (vf)(0.0f) : turn,
-               fma(vf_atan2(rho, n.y), (vf)(-0.31830987f), (vf)(1.0f)));
+               fma(vf_atan2(rho, n.y), (vf)(-2.0f * TURNS_A_RADIAN), (vf)(1.0f)));
+}
+#endif
+
+#if HAS_NORMAL_MAP
+// East and north; at the poles, those of u = 1/2.
+static inline void sphere_tangents(const PrimitiveLanes *p, v3 n, SurfaceLanes *s)
+{
+    const vf rho = sqrt(fma(n.x, n.x, n.z * n.z));
+    const vm pole = !(rho > (vf)(0.0f));
+    const vf x = pole ? (vf)(0.0f) : n.x / rho, z = pole ? (vf)(1.0f) : n.z / rho;
+    surface_tangents(p, v3_make(z, (vf)(0.0f), -x), v3_make(-x * n.y, rho, -z * n.y), s);
 }
 #endif
 
@@ -52,6 +63,9 @@ static inline void surface_sphere(const PrimitiveLanes *p, const RayLanes *ray, 
 #if HAS_UV
     sphere_uv(s, canonical_direction(p, s->ng));
 #endif
+#if HAS_NORMAL_MAP
+    sphere_tangents(p, canonical_direction(p, s->ng), s);
+#endif
 }
 #endif
 
@@ -68,7 +82,7 @@ static inline vf intersect_giant_sphere(const PrimitiveLanes *p, const RayLanes 
 {
     const vf dd = v3_dot(ray->dir, ray->dir);
     v3 f = v3_sub(ray->org, p->c);
-    const vf shift = closest_shift(&f, ray->dir, dd, 16.0f * p->p0 * p->p0);
+    const vf shift = closest_shift(&f, ray->dir, dd, 4.0f * p->p0 * p->p0);
     const vf c = ray->self ? (vf)(0.0f) : giant_value(p, v3_fma(ray->dir, shift, ray->org));
     const Interval roots = quadratic_roots(dd, v3_dot(f, ray->dir), c);
     return solid_hit(ray, interval_make(shift + roots.near, shift + roots.far));
@@ -84,6 +98,9 @@ static inline void surface_giant_sphere(const PrimitiveLanes *p, const RayLanes 
     surface_settle(s, giant_value(p, s->p) * half_over_r, 4.0f * ROUNDING * terms * half_over_r);
 #if HAS_UV
     sphere_uv(s, canonical_direction(p, s->ng));
+#endif
+#if HAS_NORMAL_MAP
+    sphere_tangents(p, canonical_direction(p, s->ng), s);
 #endif
 }
 #endif

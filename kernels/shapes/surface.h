@@ -20,6 +20,9 @@ typedef struct {
 #if HAS_TRIANGLE || HAS_MESH
     vf b1, b2; // barycentric weights of the second and third vertex of a triangle
 #endif
+#if HAS_NORMAL_MAP
+    v3 tangent_u, tangent_v; // directions of dP/du and dP/dv, of any length
+#endif
 } SurfaceLanes;
 
 // Ends surface_X: s->p is off the surface by `distance` along s->ng, which is known up to `bound`.
@@ -39,12 +42,14 @@ static inline void surface_uv(SurfaceLanes *s, vf u, vf v)
 }
 
 // For coordinates that are in [0, 1] but for rounding: the last cell of a texture ends before 1.
-static inline vf uv_clamp(vf x) { return vf_clamp(x, 0.0f, 0.99999994f); }
+static inline vf uv_clamp(vf x) { return vf_clamp(x, 0.0f, 1.0f - ROUNDING); }
+
+#define TURNS_A_RADIAN REAL(0.15915494f, 0.15915494309189535)
 
 // The angle of (x, y) in turns, in [0, 1).
 static inline vf uv_turn(vf y, vf x)
 {
-    const vf turn = vf_atan2(y, x) * 0.15915494f;
+    const vf turn = vf_atan2(y, x) * TURNS_A_RADIAN;
     const vf positive = turn < (vf)(0.0f) ? turn + 1.0f : turn;
     return positive >= (vf)(1.0f) ? (vf)(0.0f) : positive;
 }

@@ -70,6 +70,13 @@ static inline void surface_tetrahedron(const PrimitiveLanes *p, const RayLanes *
     const vf d = plane_distance(p->row2, -p->c.z, s->p);
     surface_uv(s, uv_clamp(best.face <= (vi)(1) ? b : c), uv_clamp(best.face == (vi)(0) ? c : d));
 #endif
+#if HAS_NORMAL_MAP
+    // From the first vertex of the face, b on the last face and a on the others, to the second and the third.
+    const v3 first = v3_select(best.face == (vi)(3), v3_axis(0), v3_splat(0.0f));
+    const v3 second = v3_select(best.face <= (vi)(1), v3_axis(0), v3_axis(1));
+    const v3 third = v3_select(best.face == (vi)(0), v3_axis(1), v3_axis(2));
+    surface_tangents(p, v3_sub(second, first), v3_sub(third, first), s);
+#endif
 }
 
 #endif

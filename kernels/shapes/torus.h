@@ -9,7 +9,7 @@
 #include "shapes/surface.h"
 
 #define TORUS_INTERVALS 4
-#define TORUS_MAX_STEPS 28
+#define TORUS_MAX_STEPS REAL(28, 58)
 
 // A ray in units of length along it: the point at s is o + s d, t = shift + s * t_per_s.
 typedef struct {
@@ -42,7 +42,11 @@ static inline vf torus_step(const TorusRay *r, vf s, vf *value)
 // A number between x^(1/3) and 1.2 times that, for x >= 0.
 static inline vf above_cube_root(vf x)
 {
+#if MATH_DOUBLE
+    return 1.1f * cbrt(x);
+#else
     return 1.1f * VI_AS_VF(VF_AS_VI(x) / 3 + (vi)(709921077));
+#endif
 }
 
 // The real roots of s^3 + p s - q, q >= 0, in order; where there is one, three times that.
@@ -166,6 +170,9 @@ static inline void surface_torus(const PrimitiveLanes *p, const RayLanes *ray, v
     surface_curved(p, v3_make(w * x * inverse, w * y * inverse, q.z * inverse), distance - p->p0, 4.0f, s);
 #if HAS_UV
     surface_uv(s, uv_turn(q.y, q.x), uv_turn(q.z, w));
+#endif
+#if HAS_NORMAL_MAP
+    surface_tangents(p, v3_make(-y, x, (vf)(0.0f)), v3_make(-q.z * x, -q.z * y, w), s);
 #endif
 }
 

@@ -39,6 +39,10 @@ static inline void surface_triangle(const PrimitiveLanes *p, const RayLanes *ray
     const vf inverse = (vf)(1.0f) / w.det;
     s->b1 = w.b1 * inverse;
     s->b2 = w.b2 * inverse;
+#if HAS_NORMAL_MAP
+    s->tangent_u = v3_sub(p->row1, p->row0);
+    s->tangent_v = v3_sub(p->row2, p->row0);
+#endif
 #if HAS_UV
     surface_uv(s, s->b1, s->b2);
 #endif

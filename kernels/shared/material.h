@@ -1,4 +1,4 @@
-// Material and texture records, and what shading needs to know of a primitive.
+// Material records, and what shading needs to know of a primitive.
 #ifndef CLRT_SHARED_MATERIAL_H
 #define CLRT_SHARED_MATERIAL_H
 
@@ -6,15 +6,16 @@
 
 #define MATERIAL_BLINN 1u
 #define MATERIAL_FRESNEL 2u
-#define MATERIAL_PBR 4u
+#define MATERIAL_IS_PBR 4u
 #define MATERIAL_ONE_SIDED 8u // emission of the outer side alone: area lights
 
+// Colors and numbers are multiplied by the textures that stand beside them.
 typedef struct MaterialRecord {
     f32 diffuse[3]; // pbr: base_color
     f32 shininess;
     f32 specular[3];
     f32 ior;
-    f32 ambient[3]; // k_a times I_a; I_a alone where ambient_texture >= 0
+    f32 ambient[3]; // k_a times I_a
     f32 eta_in_rest; // 1 - 1 / ior^2, rounded once
     f32 reflect[3];
     f32 eta_out_rest; // 1 - ior^2, rounded once
@@ -38,22 +39,6 @@ typedef struct MaterialRecord {
 LAYOUT_SIZE(MaterialRecord, 144);
 LAYOUT_OFFSET(MaterialRecord, ambient, 32);
 LAYOUT_OFFSET(MaterialRecord, flags, 92);
-
-#define TEXTURE_KIND_CHECKER 0
-#define TEXTURE_KIND_CHECKER3D 1
-
-// Scales in two floats, so that the parity of a far cell is that of the number written in the scene.
-typedef struct TextureRecord {
-    f32 color_a[3];
-    f32 scale_u; // checker3d: the scale
-    f32 color_b[3];
-    f32 scale_v;
-    f32 scale_u_low;
-    f32 scale_v_low;
-    f32 inset; // checker3d: 1e-4 / scale
-    u32 kind;  // TEXTURE_KIND_X
-} TextureRecord;
-LAYOUT_SIZE(TextureRecord, 48);
 
 #define NO_INDEX 0xffffffffu
 // In the material of a primitive or of a run of faces: an instance that names a material goes before it.

@@ -10,6 +10,9 @@
 #define TILE_SIDE 16
 #define TILE_SLOTS (TILE_SIDE * TILE_SIDE)
 
+// The table of a filter has FILTER_STEPS + 1 quantiles of the half with positive offsets.
+#define FILTER_STEPS 2048
+
 typedef struct RenderParams {
     f32x4 camera_right; // u, v, w of the scene language
     f32x4 camera_up;
@@ -30,9 +33,12 @@ typedef struct RenderParams {
     u32 slots_log2;      // of a pixel: 0, 2 or 4
     u32 mesh_run_count;
     u32 aov; // AOV_X
-    u32 padding[2];
+    f32 aperture;       // radius of the lens in scene units
+    f32 focus_distance; // to the plane in focus
+    f32 filter_ratio;   // integral of the filter's absolute value over that of the filter
+    u32 padding[3];
 } RenderParams;
-LAYOUT_SIZE(RenderParams, 144);
+LAYOUT_SIZE(RenderParams, 160);
 LAYOUT_OFFSET(RenderParams, pixel_scale, 64);
 
 #endif

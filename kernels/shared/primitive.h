@@ -19,6 +19,8 @@
 //                p0 - (row0 + row1 + row2).p >= 0
 //   DISK         row2.xyz = unit normal, p0 = row2.p on the disk; x = row0.(p - c), y = row1.(p - c) along
 //                t1 and t2, x^2 + y^2 <= 1
+//   RECTANGLE    a parallelogram: row2.xyz, p0 as of DISK; |row0.(p - c)| <= 1, |row1.(p - c)| <= 1 with c its
+//                centre, along its first and second edge
 //   CYLINDER     q = A (p - c), q_x^2 + q_y^2 = 1, |q_z| <= 1 from base (-1) to top (+1); x = t1, y = t2,
 //                z = n; p0 = 1: caps
 //   CONE         q = A (p - c), q_x^2 + q_y^2 = (1 - p1 (q_z + 1) / 2)^2, |q_z| <= 1, from the wider end (-1)
@@ -45,7 +47,8 @@
 #define PRIMITIVE_TORUS 8
 #define PRIMITIVE_TRIANGLE 9
 #define PRIMITIVE_GIANT_SPHERE 10
-#define PRIMITIVE_KIND_COUNT 11
+#define PRIMITIVE_RECTANGLE 11
+#define PRIMITIVE_KIND_COUNT 12
 
 typedef struct Primitive {
     f32x4 row0; // see above; lengths in scene units

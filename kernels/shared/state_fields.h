@@ -5,8 +5,9 @@
 
 #define PENDING_REALS 9
 #define STATE_REALS(shadows, lights) (13 + (shadows) * (3 + 7 * (lights)))
-#define PENDING_INTS(instances) (2 + (instances))
-#define STATE_INTS(shadows, branching, instances) (6 + (shadows) + (branching) + 2 * (instances))
+#define PENDING_INTS(instances, random) (2 + (instances) + (random))
+#define STATE_INTS(shadows, branching, instances, random) \
+    (6 + (shadows) + (branching) + 2 * (instances) + (random))
 
 // Lights whose shadow rays a slot can hold at once; a bit of FLAGS each.
 #define LIGHTS_PER_PASS_MAX 16

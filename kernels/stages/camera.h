@@ -3,10 +3,8 @@
 #define CLRT_KERNELS_STAGES_CAMERA_H
 
 #include "base/ray.h"
-#include "stages/state.h"
-#if HAS_SAMPLES
-#include "base/sampling.h"
-#endif
+#include "stages/lens.h"
+#include "stages/random.h"
 
 // Every second bit of x < 256, from the lowest on.
 static inline vi even_bits(vi x)
@@ -19,24 +17,72 @@ static inline vi even_bits(vi x)
 static inline vi slot_x(vi slot, uint slots_log2) { return even_bits(slot >> slots_log2); }
 static inline vi slot_y(vi slot, uint slots_log2) { return even_bits(slot >> slots_log2 >> 1); }
 
+#if HAS_SAMPLES || HAS_APERTURE || HAS_HIT_RANDOM
+// Where the random choices of the slots' samples come from.
+typedef struct {
+    vu key;    // of the pixel
+    vu sample; // number
+} SampleKey;
+
+static inline SampleKey sample_key(constant RenderParams *params, int left, int top, const Slots *slots,
+                                   uint sample_begin)
+{
+    SampleKey k;
+    const uint log2 = params->slots_log2;
+    const vi x = slot_x(slots->index, log2) + left, y = slot_y(slots->index, log2) + top;
+    k.key = random_pixel_key(VU_FROM_VI(x), VU_FROM_VI(y), params->seed);
+    k.sample = VU_FROM_VI((slots->index & ((1 << log2) - 1)) + (int)sample_begin);
+    return k;
+}
+#endif
+
+#if HAS_SAMPLES
+// The sample's place in pixels from the centre of its pixel, right and down.
+static inline SamplePoint sample_offset(const SampleKey *key, global const f32 *quantiles)
+{
+    SamplePoint point = sample_2d(key->key, key->sample, PAIR_PIXEL);
+    point.x = filter_offset(point.x, quantiles);
+    point.y = filter_offset(point.y, quantiles);
+    return point;
+}
+#endif
+
+#if HAS_FILTER_LOBES
+// What the samples of the slots count for in the pixel: the sign of the filter times the ratio of the integrals
+// of its absolute value and of itself.
+OUTLINE void weigh_samples(const State *s, constant RenderParams *params, global const f32 *quantiles, int left,
+                           int top, uint sample_begin)
+{
+    for (uint i = GROUP_ITEM * LANES; i < TILE_SLOTS; i += GROUP * LANES) {
+        const Slots slots = slots_all(i);
+        const SampleKey key = sample_key(params, left, top, &slots, sample_begin);
+        const SamplePoint point = sample_offset(&key, quantiles);
+        const vf weight = filter_sign(point.x) * filter_sign(point.y) * params->filter_ratio;
+        state_store3(s, RADIANCE, &slots, v3_scale(state_load3(s, RADIANCE, &slots), weight), slots.valid);
+    }
+    GROUP_BARRIER();
+}
+#endif
+
 // Starts in the valid slots the sample number sample_begin + (number of the slot within its pixel). left and
 // top: the tile's first pixel in the image.
 // Offsets count from the middle of the image in pixels, whole and fraction apart: the whole part is exact
 // and each coordinate is rounded once, at any width.
-OUTLINE void camera_ray(const State *s, constant RenderParams *params, int left, int top, const Slots *slots,
-                        uint sample_begin)
+OUTLINE void camera_ray(const State *s, constant RenderParams *params, global const f32 *quantiles, int left,
+                        int top, const Slots *slots, uint sample_begin)
 {
     const uint log2 = params->slots_log2;
     const vi x = slot_x(slots->index, log2) + left, y = slot_y(slots->index, log2) + top;
     const vi whole_x = 2 * x + (1 - (int)params->width);
     const vi whole_y = ((int)params->height - 1) - 2 * y;
     vf fine_x = (vf)(0.0f), fine_y = (vf)(0.0f);
+#if HAS_SAMPLES || HAS_APERTURE || HAS_HIT_RANDOM
+    const SampleKey key = sample_key(params, left, top, slots, sample_begin);
+#endif
 #if HAS_SAMPLES
-    const vu key = random_pixel_key(VU_FROM_VI(x), VU_FROM_VI(y), params->seed);
-    const vi sample = (slots->index & ((1 << log2) - 1)) + (int)sample_begin;
-    const SamplePoint point = sample_2d(key, VU_FROM_VI(sample), 0u);
-    fine_x = fma(point.x, (vf)(2.0f), (vf)(-1.0f));
-    fine_y = fma(point.y, (vf)(-2.0f), (vf)(1.0f));
+    const SamplePoint point = sample_offset(&key, quantiles);
+    fine_x = 2.0f * point.x;
+    fine_y = -2.0f * point.y;
 #endif
     const vf scale = (vf)(params->pixel_scale);
     const vf view_x = fma(VF_FROM_VI(whole_x), scale, fine_x * scale);
@@ -46,6 +92,12 @@ OUTLINE void camera_ray(const State *s, constant RenderParams *params, int left,
 #if HAS_ORTHOGRAPHIC
     const v3 org = v3_fma(right, view_x, v3_scale(up, view_y));
     const v3 dir = ahead;
+#elif HAS_APERTURE
+    // From a point of the lens through the point of the plane in focus.
+    const SamplePoint lens = disk_point(sample_2d(key.key, key.sample, PAIR_LENS));
+    const v3 org = v3_fma(right, lens.x * params->aperture, v3_scale(up, lens.y * params->aperture));
+    const v3 seen = v3_fma(right, view_x, v3_fma(up, view_y, ahead));
+    const v3 dir = v3_normalize(v3_sub(v3_scale(seen, (vf)(params->focus_distance)), org));
 #else
     const v3 org = v3_splat(0.0f);
     const v3 dir = v3_normalize(v3_fma(right, view_x, v3_fma(up, view_y, ahead)));
@@ -59,6 +111,9 @@ OUTLINE void camera_ray(const State *s, constant RenderParams *params, int left,
     state_store_int(s, SELF_INSTANCE, slots, (vi)(NO_HIT), slots->valid);
 #endif
     state_store_int(s, DEPTH, slots, (vi)(0), slots->valid);
+#if HAS_HIT_RANDOM
+    state_store_int(s, PATH, slots, path_begin(key.key), slots->valid);
+#endif
 }
 
 #endif

@@ -18,41 +18,105 @@ static inline uint pixel_x(uint pixel)
 }
 static inline uint pixel_y(uint pixel) { return pixel_x(pixel >> 1); }
 
-// Adds value to the unevaluated sum high + low without losing what the additions round away: 2e7 samples of 0.1
+// Adds value to the unevaluated sum high + low of each lane without losing what the additions round away: 2e7 samples of 0.1
 // still average to 0.1. Knuth's two-sum, and Dekker's to keep low below half an ulp of high; left to itself low
 // grows until it loses as much as high would.
-static inline void sum_add(real *high, real *low, real value)
+static inline void sum_add(vf *high, vf *low, vf value)
 {
-    const real sum = *high + value;
-    const real from_value = sum - *high;
-    const real rest = *low + ((*high - (sum - from_value)) + (value - from_value));
+    const vf sum = *high + value;
+    const vf from_value = sum - *high;
+    const vf rest = *low + ((*high - (sum - from_value)) + (value - from_value));
     *high = sum + rest;
     *low = rest - (*high - sum);
 }
 
+// The numbers of LANES pixels that follow each other in a tile, and where their film is.
+typedef struct {
+    bool inside[LANES]; // of the crop and the band
+    uint place[LANES];  // rows of the crop's width
+} FilmPixels;
+
+static inline FilmPixels film_pixels(constant RenderParams *params, const Tile *tile, uint pixel)
+{
+    FilmPixels pixels;
+    for (uint l = 0; l < LANES; l++) {
+        const uint x = pixel_x(pixel + l), y = pixel_y(pixel + l);
+        pixels.inside[l] = x < tile->width && y < tile->height;
+        pixels.place[l] = (tile->top + y) * params->crop_width + tile->left + x;
+    }
+    return pixels;
+}
+
+// One number of each of LANES pixels, which are `stride` apart.
+static inline vf film_load(global const real *numbers, uint stride)
+{
+    LanesF loaded;
+    for (uint l = 0; l < LANES; l++)
+        loaded.s[l] = numbers[l * stride];
+    return loaded.v;
+}
+
+// What the float high leaves of the sum high + low of reals.
+static inline f32 film_rest(real high, real low)
+{
+#if MATH_DOUBLE
+    return (f32)(low + (high - (f32)high));
+#else
+    return low;
+#endif
+}
+
 // Takes over samples begin .. end - 1 of the tile's pixels, which its slots have finished, into the film (3
-// numbers a pixel, rows of the crop's width): sums, and means after the last sample.
-OUTLINE void film_add(const State *s, constant RenderParams *params, global real *film, global real *film_low,
-                      const Tile *tile, uint begin, uint end)
+// numbers a pixel, rows of the crop's width): sums, and means after the last sample. film_m2 (1 number a pixel)
+// becomes the sum over samples and channels of the squares of what each sample differs from the mean: that of
+// the samples before it, weighted as Youngs and Cramer do ("Some Results Relevant to Choice of Sum and
+// Sum-of-Product Algorithms", 1971), which loses nothing where the mean is large, and first within a round, so
+// that a million small terms do not vanish beside their sum.
+OUTLINE void film_add(const State *s, constant RenderParams *params, global f32 *film, global f32 *film_low,
+                      global float *film_m2, const Tile *tile, uint begin, uint end)
 {
     const uint log2 = params->slots_log2;
-    for (uint pixel = GROUP_ITEM; pixel < TILE_SLOTS >> log2; pixel += GROUP) {
-        const uint x = pixel_x(pixel), y = pixel_y(pixel);
-        if (x >= tile->width || y >= tile->height)
-            continue;
-        const uint place = 3 * ((tile->top + y) * params->crop_width + tile->left + x);
-        for (uint c = 0; c < 3; c++) {
-            global const real *radiance = s->reals + (RADIANCE + c) * TILE_SLOTS + (pixel << log2);
+    for (uint pixel = GROUP_ITEM * LANES; pixel < TILE_SLOTS >> log2; pixel += GROUP * LANES) {
+        const FilmPixels pixels = film_pixels(params, tile, pixel);
+        global const real *radiance = s->reals + RADIANCE * TILE_SLOTS + (pixel << log2);
 #if HAS_SAMPLES
-            real high = begin ? film[place + c] : 0.0f, low = begin ? film_low[place + c] : 0.0f;
-            for (uint k = 0; k < end - begin; k++)
-                sum_add(&high, &low, radiance[k]);
-            film[place + c] = end == params->samples ? (high + low) / (real)params->samples : high;
-            film_low[place + c] = low;
-#else
-            film[place + c] = radiance[0];
-#endif
+        LanesF high[3], low[3], m2;
+        for (uint l = 0; l < LANES; l++) {
+            const bool more = begin > 0 && pixels.inside[l];
+            for (uint c = 0; c < 3; c++) {
+                high[c].s[l] = more ? film[3 * pixels.place[l] + c] : 0.0f;
+                low[c].s[l] = more ? film_low[3 * pixels.place[l] + c] : 0.0f;
+            }
         }
+        m2.v = (vf)(0.0f);
+        real inverse = begin ? 1.0f / (real)begin : 0.0f; // of the number of samples in the sums
+        for (uint k = begin; k < end; k++) {
+            const real next = 1.0f / (real)(k + 1);
+            for (uint c = 0; c < 3; c++) {
+                const vf value = film_load(radiance + c * TILE_SLOTS + (k - begin), 1u << log2);
+                const vf apart = fma(high[c].v, (vf)(-inverse), value);
+                m2.v = fma(apart * (1.0f - next), apart, m2.v);
+                sum_add(&high[c].v, &low[c].v, value);
+            }
+            inverse = next;
+        }
+        if (end == params->samples)
+            for (uint c = 0; c < 3; c++)
+                high[c].v = (high[c].v + low[c].v) / (real)params->samples;
+        for (uint l = 0; l < LANES; l++) {
+            const uint place = pixels.place[l];
+            for (uint c = 0; c < 3 && pixels.inside[l]; c++) {
+                film[3 * place + c] = (f32)high[c].s[l];
+                film_low[3 * place + c] = film_rest(high[c].s[l], low[c].s[l]);
+            }
+            if (pixels.inside[l])
+                film_m2[place] = begin ? film_m2[place] + (float)m2.s[l] : (float)m2.s[l];
+        }
+#else
+        for (uint l = 0; l < LANES; l++)
+            for (uint c = 0; c < 3 && pixels.inside[l]; c++)
+                film[3 * pixels.place[l] + c] = radiance[c * TILE_SLOTS + l];
+#endif
     }
 }
 

@@ -5,30 +5,38 @@
 #include "accel/batch.h"
 #include "base/offset.h"
 #include "base/table.h"
+#include "stages/random.h"
 #include "stages/state.h"
-#if HAS_CHECKER3D
-#include "shapes/object_frame.h"
-#endif
 #if HAS_MESH
 #include "shapes/mesh.h"
 #endif
-#if HAS_CHECKER || HAS_CHECKER3D
-#include "texture/checker.h"
+#include "texture/texture.h"
+#if HAS_PBR
+#include "material/pbr.h"
 #endif
 
 // Records in numbers, for Row.
 #define PRIMITIVE_NUMBERS 16
 #define INFO_NUMBERS 4
-#define MATERIAL_NUMBERS 28
-#define TEXTURE_NUMBERS 12
+#define MATERIAL_NUMBERS 36
 #define EXTRA_NUMBERS 16
 #define RUN_NUMBERS 8
+
+// Numbers of a MaterialRecord.
+enum {
+    MATERIAL_DIFFUSE = 0, MATERIAL_SHININESS = 3, MATERIAL_SPECULAR = 4, MATERIAL_IOR = 7,
+    MATERIAL_AMBIENT = 8, MATERIAL_ETA_IN_REST = 11, MATERIAL_REFLECT = 12, MATERIAL_ETA_OUT_REST = 15,
+    MATERIAL_TRANSMIT = 16, MATERIAL_INVERSE_IOR = 19, MATERIAL_EMISSION = 20, MATERIAL_FLAGS = 23,
+    MATERIAL_DIFFUSE_TEXTURE = 24, MATERIAL_AMBIENT_TEXTURE, MATERIAL_EMISSION_TEXTURE, MATERIAL_NORMAL_TEXTURE,
+    MATERIAL_METALLIC = 28, MATERIAL_ROUGHNESS, MATERIAL_OCCLUSION, MATERIAL_BASE_REFLECTANCE,
+    MATERIAL_METALLIC_TEXTURE = 32, MATERIAL_ROUGHNESS_TEXTURE, MATERIAL_OCCLUSION_TEXTURE, MATERIAL_PBR_TRANSMIT
+};
 
 // What shading reads of the scene, beside the hierarchy.
 typedef struct {
     global const MaterialRecord *materials;
-#if HAS_CHECKER || HAS_CHECKER3D
-    global const TextureRecord *textures;
+#if HAS_TEXTURES
+    Textures textures;
 #endif
 #if HAS_TRIANGLE_EXTRA
     global const TriangleExtra *extras;
@@ -37,10 +45,10 @@ typedef struct {
     global const int *mesh_indices;
 #endif
 #if HAS_MESH_NORMALS
-    global const real *mesh_normals; // 3 a normal
+    global const f32 *mesh_normals; // 3 a normal
 #endif
 #if HAS_MESH_UVS
-    global const real *mesh_uvs; // 2 a vertex
+    global const f32 *mesh_uvs; // 2 a vertex
 #endif
 #if HAS_CHECKER3D
     global const ObjectFrame *frames; // one a primitive, then one a mesh
@@ -55,12 +63,14 @@ typedef struct {
     vm inside;    // the ray met the surface from its inner side
     vi primitive; // a valid index or slot in every lane, as in BatchHits
     Row material;
-#if HAS_UV
-    vf u, v;
-    vf u_whole, v_whole;
+#if HAS_HIT_RANDOM
+    HitRandom random;
 #endif
-#if HAS_CHECKER3D
-    ObjectPoint object; // in the shape's own space, before its transforms
+#if HAS_PBR
+    PbrLanes pbr; // of the material, by hit_pbr
+#endif
+#if HAS_UV || HAS_CHECKER3D
+    TexturePoint at;
 #endif
 } Hit;
 
@@ -88,8 +98,8 @@ static inline v3 carry_normal(const PrimitiveLanes *map, v3 n)
 
 #if HAS_TRIANGLE_EXTRA
 // Normals and texture coordinates that vertices bring along, in the lanes that have them.
-OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, const SurfaceLanes *surface,
-                                   v3 *normal, Hit *hit)
+OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, SurfaceLanes *surface, v3 *normal,
+                             Hit *hit)
 {
     const Row row = row_make(shading->extras, has ? extra : (vi)(0), EXTRA_NUMBERS);
     const vf b1 = surface->b1, b2 = surface->b2, b0 = (1.0f - b1) - b2;
@@ -97,10 +107,15 @@ OUTLINE void hit_interpolate(const Shading *shading, vi extra, vm has, const Sur
     const v3 n = v3_fma(row_real3(&row, 6), b2, n01);
     *normal = v3_select(has & (row_int(&row, 15) != (vi)(0)), n, *normal);
 #if HAS_UV
-    const vf u = fma(row_real(&row, 13), b2, fma(row_real(&row, 11), b1, row_real(&row, 9) * b0));
-    const vf v = fma(row_real(&row, 14), b2, fma(row_real(&row, 12), b1, row_real(&row, 10) * b0));
-    hit->u = has ? u : hit->u;
-    hit->v = has ? v : hit->v;
+    const vf us[3] = { row_real(&row, 9), row_real(&row, 11), row_real(&row, 13) };
+    const vf vs[3] = { row_real(&row, 10), row_real(&row, 12), row_real(&row, 14) };
+    const vf u = fma(us[2], b2, fma(us[1], b1, us[0] * b0));
+    const vf v = fma(vs[2], b2, fma(vs[1], b1, vs[0] * b0));
+    hit->at.u = has ? u : hit->at.u;
+    hit->at.v = has ? v : hit->at.v;
+#if HAS_NORMAL_MAP
+    surface_uv_tangents(surface, us, vs, has);
+#endif
 #endif
 }
 #endif
@@ -173,7 +188,7 @@ OUTLINE void mesh_normal(const Shading *shading, const MeshHit *m, const Surface
 
 #if HAS_MESH_UVS
 // Texture coordinates of the lanes whose faces bring them along.
-OUTLINE void mesh_uv(const Shading *shading, const MeshHit *m, const SurfaceLanes *surface, Hit *hit)
+OUTLINE void mesh_uv(const Shading *shading, const MeshHit *m, SurfaceLanes *surface, Hit *hit)
 {
     vm has = mesh_flag(m, MESH_UVS);
     if (!vm_any(has))
@@ -182,15 +197,20 @@ OUTLINE void mesh_uv(const Shading *shading, const MeshHit *m, const SurfaceLane
     const vi first = vi_gather(shading->mesh_indices, corner);
     has = has & (first != (vi)(-1));
     const vf weights[3] = { (1.0f - surface->b1) - surface->b2, surface->b1, surface->b2 };
-    vf u = (vf)(0.0f), v = (vf)(0.0f);
+    vf u = (vf)(0.0f), v = (vf)(0.0f), us[3], vs[3];
     for (int k = 0; k < 3; k++) {
         const vi index = vi_gather(shading->mesh_indices, corner + k);
         const vi at = has ? 2 * index : (vi)(0);
-        u = fma(vf_gather(shading->mesh_uvs, at), weights[k], u);
-        v = fma(vf_gather(shading->mesh_uvs, at + 1), weights[k], v);
+        us[k] = vf_gather(shading->mesh_uvs, at);
+        vs[k] = vf_gather(shading->mesh_uvs, at + 1);
+        u = fma(us[k], weights[k], u);
+        v = fma(vs[k], weights[k], v);
     }
-    hit->u = has ? u : hit->u;
-    hit->v = has ? v : hit->v;
+    hit->at.u = has ? u : hit->at.u;
+    hit->at.v = has ? v : hit->at.v;
+#if HAS_NORMAL_MAP
+    surface_uv_tangents(surface, us, vs, has);
+#endif
 }
 #endif
 #endif
@@ -233,6 +253,11 @@ static inline void placement_leave(const Placement *p, v3 org, v3 dir, vf t, Sur
     surface->p = v3_select(p->placed, outside.p, surface->p);
     surface->error = v3_select(p->placed, outside.error, surface->error);
     surface->ng = v3_select(p->placed, outside.ng, surface->ng);
+#if HAS_NORMAL_MAP
+    surface_tangents(&p->map, surface->tangent_u, surface->tangent_v, &outside);
+    surface->tangent_u = v3_select(p->placed, outside.tangent_u, surface->tangent_u);
+    surface->tangent_v = v3_select(p->placed, outside.tangent_v, surface->tangent_v);
+#endif
 }
 #endif
 
@@ -299,8 +324,7 @@ static inline void target_surface(const Target *target, const RayLanes *ray, vf 
 
 #if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
 // The shading normal in the space of the shape, of any length, and the texture coordinates of the vertices.
-static inline v3 target_normal(const Target *target, const Shading *shading, const SurfaceLanes *surface,
-                               Hit *hit)
+static inline v3 target_normal(const Target *target, const Shading *shading, SurfaceLanes *surface, Hit *hit)
 {
     v3 normal = surface->ng;
 #if HAS_TRIANGLE_EXTRA
@@ -313,6 +337,20 @@ static inline v3 target_normal(const Target *target, const Shading *shading, con
     mesh_normal(shading, &target->face, surface, &normal);
 #endif
     return normal;
+}
+#endif
+
+#if HAS_NORMAL_MAP
+// The unit normal n as the normal maps of the lanes tilt it.
+OUTLINE v3 mapped_normal(const Hit *hit, const Shading *shading, const SurfaceLanes *surface, v3 n)
+{
+    const vi texture = row_int(&hit->material, MATERIAL_NORMAL_TEXTURE);
+    const vm mapped = texture >= (vi)(0);
+    vi channel;
+    if (!vm_any(mapped))
+        return n;
+    const v3 color = texture_color(&shading->textures, &hit->at, texture, mapped, true, &channel);
+    return v3_select(mapped, tilted_normal(n, surface->tangent_u, surface->tangent_v, color), n);
 }
 #endif
 
@@ -341,10 +379,10 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
 #endif
     target_surface(&target, &ray, t, &surface);
 #if HAS_UV
-    hit.u = surface.u;
-    hit.v = surface.v;
-    hit.u_whole = surface.u_whole;
-    hit.v_whole = surface.v_whole;
+    hit.at.u = surface.u;
+    hit.at.v = surface.v;
+    hit.at.u_whole = surface.u_whole;
+    hit.at.v_whole = surface.v_whole;
 #endif
 #if HAS_MESH_UVS && HAS_UV
     mesh_uv(shading, &target.face, &surface, &hit);
@@ -353,7 +391,7 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     v3 normal = target_normal(&target, shading, &surface, &hit);
 #endif
 #if HAS_CHECKER3D
-    hit.object = object_point(shading->frames, target.frame, surface.p, surface.ng);
+    hit.at.object = object_point(shading->frames, target.frame, surface.p, surface.ng);
 #endif
 #if HAS_INSTANCES
     placement_leave(&placement, org, dir, t, &surface);
@@ -365,42 +403,59 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     hit.error = surface.error;
     hit.inside = v3_dot(dir, surface.ng) > (vf)(0.0f);
     hit.ng = v3_select(hit.inside, v3_neg(surface.ng), surface.ng);
+    hit.material = row_make(shading->materials, material, MATERIAL_NUMBERS);
+#if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS || HAS_NORMAL_MAP
+    v3 ns = surface.ng;
 #if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
-    const v3 ns = v3_normalize(normal);
+    ns = v3_normalize(normal);
+#endif
+#if HAS_NORMAL_MAP
+    ns = mapped_normal(&hit, shading, &surface, ns);
+#endif
     hit.ns = v3_select(v3_dot(ns, hit.ng) < (vf)(0.0f), v3_neg(ns), ns);
 #else
     hit.ns = hit.ng;
 #endif
-    hit.material = row_make(shading->materials, material, MATERIAL_NUMBERS);
     return hit;
 }
 
-// A color of the material, number k of its record, or what the texture of index `texture` gives instead.
+// A color of the material, number k of its record, times the texture of index `texture` where there is one.
 OUTLINE v3 hit_color(const Hit *hit, const Shading *shading, int k, vi texture)
 {
     v3 color = row_real3(&hit->material, k);
-#if HAS_CHECKER || HAS_CHECKER3D
+#if HAS_TEXTURES
     const vm textured = texture >= (vi)(0);
     if (vm_any(textured)) {
-        const Row row = row_make(shading->textures, textured ? texture : (vi)(0), TEXTURE_NUMBERS);
-        vf odd = (vf)(0.0f);
-#if HAS_CHECKER
-        odd = parity(cell_parity(hit->u_whole, hit->u, row_real(&row, 3), row_real(&row, 8)) +
-                     cell_parity(hit->v_whole, hit->v, row_real(&row, 7), row_real(&row, 9)));
-#endif
-#if HAS_CHECKER3D
-        const vf scale = row_real(&row, 3), low = row_real(&row, 8), inset = row_real(&row, 10);
-        const v3 p = v3_fma(hit->object.normal, -inset, hit->object.fine);
-        const vf odd3 = parity(cell_parity(hit->object.whole.x, p.x, scale, low) +
-                               cell_parity(hit->object.whole.y, p.y, scale, low) +
-                               cell_parity(hit->object.whole.z, p.z, scale, low));
-        odd = row_int(&row, 11) == (vi)(TEXTURE_KIND_CHECKER3D) ? odd3 : odd;
-#endif
-        const v3 cell = v3_select(odd != (vf)(0.0f), row_real3(&row, 4), row_real3(&row, 0));
-        color = v3_select(textured, cell, color);
+        vi channel;
+        const v3 found = texture_color(&shading->textures, &hit->at, texture, textured, false, &channel);
+        color = v3_select(textured, v3_mul(color, found), color);
     }
 #endif
     return color;
 }
+
+#if HAS_PBR
+static inline vm hit_is_pbr(const Hit *hit)
+{
+    return (row_int(&hit->material, MATERIAL_FLAGS) & (int)MATERIAL_IS_PBR) != (vi)(0);
+}
+
+// A number of the material, number k of its record, times the texture whose index is number `texture` of it.
+OUTLINE vf hit_number(const Hit *hit, const Shading *shading, int k, int texture)
+{
+    vf number = row_real(&hit->material, k);
+#if HAS_TEXTURES
+    const vi index = row_int(&hit->material, texture);
+    const vm textured = index >= (vi)(0);
+    if (vm_any(textured)) {
+        vi channel;
+        const v3 found = texture_color(&shading->textures, &hit->at, index, textured, true, &channel);
+        const vf part = channel == (vi)(0) ? found.x : channel == (vi)(1) ? found.y : found.z;
+        number = textured ? number * part : number;
+    }
+#endif
+    return number;
+}
+#endif
 
 #endif

@@ -17,8 +17,8 @@
 #endif
 
 // Queues the slots of samples begin .. end - 1 of the tile's pixels, with their camera rays; returns how many.
-OUTLINE uint start_samples(const State *s, constant RenderParams *params, const Tile *tile, uint begin, uint end,
-                           local uint *scratch, uint *rays)
+OUTLINE uint start_samples(const State *s, constant RenderParams *params, global const f32 *quantiles,
+                           const Tile *tile, uint begin, uint end, local uint *scratch, uint *rays)
 {
     global int *queue = s->ints + QUEUE * TILE_SLOTS;
     global int *all = s->ints + QUEUE_NEXT * TILE_SLOTS;
@@ -32,7 +32,7 @@ OUTLINE uint start_samples(const State *s, constant RenderParams *params, const 
     const uint count = queue_compact(s, all, TILE_SLOTS, 1, queue, scratch);
     for (uint i = GROUP_ITEM * LANES; i < count; i += GROUP * LANES) {
         const Slots slots = slots_make(queue, i, count);
-        camera_ray(s, params, tile->image_left, tile->image_top, &slots, begin);
+        camera_ray(s, params, quantiles, tile->image_left, tile->image_top, &slots, begin);
         rays[RAYS_CAMERA] += popcount(vm_bits(slots.valid));
 #if HAS_BRANCHING
         state_store_int(s, PENDING_COUNT, &slots, (vi)(0), slots.valid);
@@ -123,8 +123,11 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_BVH
                          global const BvhNode *nodes,
 #endif
-#if HAS_CHECKER || HAS_CHECKER3D
+#if HAS_TEXTURES
                          global const TextureRecord *textures,
+#endif
+#if HAS_IMAGE
+                         global const uchar *texels,
 #endif
 #if HAS_CHECKER3D
                          global const ObjectFrame *frames,
@@ -147,8 +150,11 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_LIGHTS
                          global const LightRecord *lights,
 #endif
+#if HAS_FILTER_TABLE
+                         global const f32 *quantiles,
+#endif
 #if HAS_SAMPLES
-                         global f32 *film_low,
+                         global f32 *film_low, global f32 *film_m2,
 #endif
                          global real *state_reals, global int *state_ints, global f32 *film,
                          global uint *ray_counts, uint state_real_fields, uint state_int_fields,
@@ -190,8 +196,11 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_MESH_UVS
     shading.mesh_uvs = mesh_uvs;
 #endif
-#if HAS_CHECKER || HAS_CHECKER3D
-    shading.textures = textures;
+#if HAS_TEXTURES
+    shading.textures.records = textures;
+#endif
+#if HAS_IMAGE
+    shading.textures.texels = texels;
 #endif
 #if HAS_CHECKER3D
     shading.frames = frames;
@@ -202,8 +211,11 @@ kernel void render_tiles(constant RenderParams *params,
 #if !HAS_LIGHTS
     global const LightRecord *lights = 0;
 #endif
+#if !HAS_FILTER_TABLE
+    global const f32 *quantiles = 0;
+#endif
 #if !HAS_SAMPLES
-    global f32 *film_low = 0;
+    global f32 *film_low = 0, *film_m2 = 0;
 #endif
     for (uint t = group; t < tiles; t += groups) {
         Tile tile;
@@ -215,8 +227,15 @@ kernel void render_tiles(constant RenderParams *params,
         tile.image_top = (int)(params->top + band_top + tile.top);
         for (uint begin = sample_begin; begin < sample_end; begin += 1u << params->slots_log2) {
             const uint end = min(begin + (1u << params->slots_log2), sample_end);
-            const uint count = start_samples(&s, params, &tile, begin, end, scratch, rays);
+#if HAS_HIT_RANDOM
+            s.sample_begin = (int)begin;
+            s.sample_mask = (1 << params->slots_log2) - 1;
+#endif
+            const uint count = start_samples(&s, params, quantiles, &tile, begin, end, scratch, rays);
             drain_queue(&s, &scene, &shading, lights, params, count, scratch, rays);
+#if HAS_FILTER_LOBES
+            weigh_samples(&s, params, quantiles, tile.image_left, tile.image_top, begin);
+#endif
             film_add(&s, params, film, film_low, film_m2, &tile, begin, end);
             GROUP_BARRIER();
         }

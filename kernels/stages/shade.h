@@ -4,7 +4,7 @@
 #define CLRT_KERNELS_STAGES_SHADE_H
 
 #if HAS_LIGHTS
-#include "light/punctual.h"
+#include "light/lights.h"
 #endif
 #include "material/lobes.h"
 #include "shared/light.h"
@@ -18,16 +18,6 @@
 // light lies on does not stand before it.
 #define LIGHT_NEARER 0.999998f
 
-// Numbers of a MaterialRecord.
-enum {
-    MATERIAL_DIFFUSE = 0, MATERIAL_SHININESS = 3, MATERIAL_SPECULAR = 4, MATERIAL_IOR = 7,
-    MATERIAL_AMBIENT = 8, MATERIAL_ETA_IN_REST = 11, MATERIAL_REFLECT = 12, MATERIAL_ETA_OUT_REST = 15,
-    MATERIAL_TRANSMIT = 16, MATERIAL_INVERSE_IOR = 19, MATERIAL_EMISSION = 20, MATERIAL_FLAGS = 23,
-    MATERIAL_DIFFUSE_TEXTURE = 24, MATERIAL_AMBIENT_TEXTURE, MATERIAL_EMISSION_TEXTURE, MATERIAL_NORMAL_TEXTURE,
-    MATERIAL_METALLIC = 28, MATERIAL_ROUGHNESS, MATERIAL_OCCLUSION, MATERIAL_BASE_REFLECTANCE,
-    MATERIAL_METALLIC_TEXTURE = 32, MATERIAL_ROUGHNESS_TEXTURE, MATERIAL_OCCLUSION_TEXTURE, MATERIAL_PBR_TRANSMIT
-};
-
 // Lights first..last of params; opening and closing tell the first and the last pass over a hit.
 typedef struct {
     uint first, last;
@@ -39,26 +29,50 @@ static inline v3 hit_diffuse(const Hit *hit, const Shading *shading)
     return hit_color(hit, shading, MATERIAL_DIFFUSE, row_int(&hit->material, MATERIAL_DIFFUSE_TEXTURE));
 }
 
-// Emission and ambient light.
+#if HAS_AMBIENT
+// What the hit reflects of ambient light that comes from everywhere.
+OUTLINE v3 hit_ambient(const Hit *hit, const Shading *shading)
+{
+    v3 ambient = hit_color(hit, shading, MATERIAL_AMBIENT, row_int(&hit->material, MATERIAL_AMBIENT_TEXTURE));
+#if HAS_PBR
+    const vf open = hit_number(hit, shading, MATERIAL_OCCLUSION, MATERIAL_OCCLUSION_TEXTURE);
+    ambient = v3_select(hit_is_pbr(hit), v3_scale(ambient, open), ambient);
+#endif
+    return ambient;
+}
+#endif
+
+// Emission and, where no rays look for what occludes it, ambient light.
 OUTLINE v3 shade_unlit(const Hit *hit, const Shading *shading)
 {
     v3 sum = v3_splat(0.0f);
 #if HAS_EMISSION
-    sum = row_real3(&hit->material, MATERIAL_EMISSION);
+    sum = hit_color(hit, shading, MATERIAL_EMISSION, row_int(&hit->material, MATERIAL_EMISSION_TEXTURE));
+#if HAS_AREA_LIGHTS
+    const vm one_sided = (row_int(&hit->material, MATERIAL_FLAGS) & (int)MATERIAL_ONE_SIDED) != (vi)(0);
+    sum = v3_select(one_sided & hit->inside, v3_splat(0.0f), sum);
 #endif
-#if HAS_AMBIENT
-    v3 ambient = row_real3(&hit->material, MATERIAL_AMBIENT);
-#if HAS_CHECKER || HAS_CHECKER3D
-    const vi texture = row_int(&hit->material, MATERIAL_AMBIENT_TEXTURE);
-    const v3 scaled = v3_mul(ambient, hit_color(hit, shading, MATERIAL_AMBIENT, texture));
-    ambient = v3_select(texture >= (vi)(0), scaled, ambient);
 #endif
-    sum = v3_add(sum, ambient);
+#if HAS_AMBIENT && !HAS_OCCLUSION
+    sum = v3_add(sum, hit_ambient(hit, shading));
 #endif
     return sum;
 }
 
-#if HAS_LIGHTS
+#if HAS_PBR
+OUTLINE PbrLanes hit_pbr(const Hit *hit, const Shading *shading)
+{
+    PbrLanes m;
+    m.base_color = hit_diffuse(hit, shading);
+    m.metallic = hit_number(hit, shading, MATERIAL_METALLIC, MATERIAL_METALLIC_TEXTURE);
+    m.roughness = hit_number(hit, shading, MATERIAL_ROUGHNESS, MATERIAL_ROUGHNESS_TEXTURE);
+    m.transmit = row_real(&hit->material, MATERIAL_PBR_TRANSMIT);
+    m.f = row_real(&hit->material, MATERIAL_BASE_REFLECTANCE);
+    return m;
+}
+#endif
+
+#if HAS_DIRECT_LIGHTS
 // Radiance that the light sends to the eye by way of the hit, were nothing between them; 0 where it cannot.
 OUTLINE v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
 {
@@ -83,7 +97,62 @@ OUTLINE v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
         reflected = v3_fma(specular, lobe, reflected);
     }
 #endif
+#if HAS_PBR
+    const vm pbr = hit_is_pbr(hit);
+    if (vm_any(lit & pbr)) {
+        const v3 brdf = pbr_brdf(&hit->pbr, hit->ns, v3_neg(hit->dir), light->dir);
+#if HAS_AREA_LIGHTS
+        const vf irradiance = light->area ? cosine * PI : cosine; // of what is over pi for the others
+#else
+        const vf irradiance = cosine;
+#endif
+        reflected = v3_select(pbr, v3_scale(brdf, irradiance), reflected);
+    }
+#endif
     return v3_select(lit, v3_mul(light->intensity, reflected), v3_splat(0.0f));
+}
+#endif
+
+#if HAS_LIGHTS
+// A ray from the hit towards a light, and what it brings to the eye where it meets nothing.
+typedef struct {
+    v3 dir, gain;
+    vf length;
+} LightRay;
+
+#if HAS_OCCLUSION
+static inline LightRay occlusion_ray(const Hit *hit, v3 ambient, global const LightRecord *light)
+{
+    LightRay ray;
+    ray.dir = occlusion_direction(hit->ns, hit_random_point(&hit->random, light, 0));
+    ray.length = (vf)(light->size);
+    const v3 share = v3_scale(ambient, (vf)(light->intensity.x));
+    ray.gain = v3_select(v3_dot(hit->ng, ray.dir) > (vf)(0.0f), share, v3_splat(0.0f));
+    return ray;
+}
+#endif
+
+// diffuse, ambient: what the hit reflects of lights and of ambient light.
+OUTLINE LightRay light_ray(const Hit *hit, v3 diffuse, v3 ambient, global const LightRecord *light)
+{
+    LightRay ray;
+    ray.dir = ray.gain = v3_splat(0.0f);
+    ray.length = (vf)(0.0f);
+#if HAS_OCCLUSION
+    if (light->kind == LIGHT_KIND_OCCLUSION)
+        return occlusion_ray(hit, ambient, light);
+#endif
+#if HAS_DIRECT_LIGHTS
+#if HAS_AREA_LIGHTS
+    const LightSample sample = light_sample(light, hit->point, hit_random_point(&hit->random, light, 0));
+#else
+    const LightSample sample = punctual_sample(light, hit->point);
+#endif
+    ray.dir = sample.dir;
+    ray.gain = shade_light(hit, diffuse, &sample);
+    ray.length = sample.distance * LIGHT_NEARER;
+#endif
+    return ray;
 }
 
 // Light of the pass: queued as shadow rays, or added at once where nothing casts shadows. Returns FLAGS.
@@ -92,16 +161,28 @@ OUTLINE vi shade_lights(const State *s, const Slots *slots, const Hit *hit, cons
                               v3 *radiance, vm shaded)
 {
     vi flags = (vi)(0);
-    const v3 diffuse = hit_diffuse(hit, shading);
+    v3 diffuse = v3_splat(0.0f), ambient = v3_splat(0.0f);
+#if HAS_DIRECT_LIGHTS
+    diffuse = hit_diffuse(hit, shading);
+#endif
+#if HAS_OCCLUSION
+    ambient = hit_ambient(hit, shading);
+#endif
     for (uint l = pass->first; l < pass->last; l++) {
-        const LightSample light = light_sample(&lights[l], hit->point);
-        v3 gain = v3_mul(throughput, shade_light(hit, diffuse, &light));
+        const LightRay ray = light_ray(hit, diffuse, ambient, &lights[l]);
+        const v3 gain = v3_mul(throughput, ray.gain);
         const vm arrives = shaded & ((gain.x > (vf)(0.0f)) | (gain.y > (vf)(0.0f)) | (gain.z > (vf)(0.0f)));
+#if HAS_OCCLUSION
+        if (lights[l].position.w == 0.0f) { // occlusion is traced where lights cast no shadows, too
+            *radiance = v3_select(arrives, v3_add(*radiance, gain), *radiance);
+            continue;
+        }
+#endif
 #if HAS_SHADOWS
         const uint fields = SHADOW_LIGHTS + (l - pass->first) * SHADOW_FIELDS;
         flags = flags | (arrives ? (vi)(1 << (l - pass->first)) : (vi)(0));
-        state_store3(s, fields + SHADOW_DIR, slots, light.dir, slots->valid);
-        state_store(s, fields + SHADOW_T, slots, light.distance * LIGHT_NEARER, slots->valid);
+        state_store3(s, fields + SHADOW_DIR, slots, ray.dir, slots->valid);
+        state_store(s, fields + SHADOW_T, slots, ray.length, slots->valid);
         state_store3(s, fields + SHADOW_GAIN, slots, gain, slots->valid);
 #else
         *radiance = v3_select(arrives, v3_add(*radiance, gain), *radiance);
@@ -140,9 +221,15 @@ OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *s
 #if HAS_INSTANCES
             instance = state_load_int(s, INSTANCE, &slots);
 #endif
-            const Hit hit = hit_make(scene, shading, state_load3(s, RAY_ORG, &slots),
+            Hit hit = hit_make(scene, shading, state_load3(s, RAY_ORG, &slots),
                                      state_load3(s, RAY_DIR, &slots), t,
                                      state_load_int(s, PRIMITIVE, &slots), instance);
+#if HAS_HIT_RANDOM
+            hit.random = hit_random(s, &slots);
+#endif
+#if HAS_PBR
+            hit.pbr = hit_pbr(&hit, shading);
+#endif
             if (pass->opening) {
                 const v3 unlit = v3_mul(throughput, shade_unlit(&hit, shading));
                 radiance = v3_select(shaded, v3_add(radiance, unlit), radiance);

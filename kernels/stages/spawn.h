@@ -9,6 +9,9 @@ typedef struct {
     v3 org, dir, throughput;
     vi self; // as BatchHits.self
     vm m;
+#if HAS_HIT_RANDOM
+    vi path; // as HitRandom.path
+#endif
 } NextRay;
 
 // Weights and directions of the two rays (scene language, section 4).
@@ -16,6 +19,30 @@ typedef struct {
     v3 reflect_dir, reflect_weight;
     v3 transmit_dir, transmit_weight;
 } Scatter;
+
+#if HAS_PBR
+// Weights of pbr lanes: the mirror of smooth surfaces, and clear transmission by Fresnel's equations.
+static inline void scatter_pbr(const Hit *hit, v3 n, Scatter *s)
+{
+    const PbrLanes *m = &hit->pbr;
+    const vm pbr = hit_is_pbr(hit), smooth = m->roughness < (vf)(PBR_MIRROR);
+    const vf cosine = vf_clamp(-v3_dot(n, hit->dir), 0.0f, 1.0f), through = pbr_through(m);
+    const v3 mirror = v3_scale(pbr_schlick(pbr_f0(m), 1.0f - cosine), 1.0f - through);
+    v3 reflect = v3_select(smooth, mirror, v3_splat(0.0f)), transmit = v3_splat(0.0f);
+#if HAS_TRANSMIT
+    const vm leaves = hit->inside;
+    const vf eta = leaves ? row_real(&hit->material, MATERIAL_IOR) : row_real(&hit->material, MATERIAL_INVERSE_IOR);
+    const vf rest = leaves ? row_real(&hit->material, MATERIAL_ETA_OUT_REST)
+                           : row_real(&hit->material, MATERIAL_ETA_IN_REST);
+    const Refraction r = refract_cosines(cosine, eta, rest);
+    const vf f = fresnel_dielectric(&r, eta);
+    reflect = v3_add(reflect, v3_scale(v3_splat(1.0f), through * f));
+    transmit = v3_scale(m->base_color, through * (1.0f - f));
+#endif
+    s->reflect_weight = v3_select(pbr, reflect, s->reflect_weight);
+    s->transmit_weight = v3_select(pbr, transmit, s->transmit_weight);
+}
+#endif
 
 OUTLINE Scatter scatter_make(const Hit *hit)
 {
@@ -49,6 +76,9 @@ OUTLINE Scatter scatter_make(const Hit *hit)
     const vf along = fma(eta, r.cos_in, -r.cos_out);
     s.transmit_dir = v3_normalize(v3_fma(n, along, v3_scale(hit->dir, eta)));
 #endif
+#if HAS_PBR
+    scatter_pbr(hit, n, &s);
+#endif
     return s;
 }
 
@@ -67,6 +97,9 @@ static inline NextRay next_ray(const Hit *hit, v3 dir, v3 weight, v3 throughput,
                       (next.throughput.z >= (vf)(min_weight));
     const vm some = (weight.x > (vf)(0.0f)) | (weight.y > (vf)(0.0f)) | (weight.z > (vf)(0.0f));
     next.m = m & enough & some & (v3_dot(dir, side) > (vf)(0.0f));
+#if HAS_HIT_RANDOM
+    next.path = path_follow(&hit->random, through);
+#endif
     return next;
 }
 
@@ -78,6 +111,9 @@ static inline void store_ray(const State *s, const Slots *slots, const NextRay *
     state_store3(s, THROUGHPUT, slots, ray->throughput, m);
     state_store_int(s, SELF, slots, ray->self, m);
     state_store_int(s, DEPTH, slots, depth, m);
+#if HAS_HIT_RANDOM
+    state_store_int(s, PATH, slots, ray->path, m);
+#endif
 #if HAS_INSTANCES
     state_store_int(s, SELF_INSTANCE, slots, instance, m);
 #endif
@@ -102,11 +138,14 @@ OUTLINE void park_ray(const State *s, const Slots *slots, const NextRay *ray, vi
         vf_scatter(reals + (3 * k + 1) * TILE_SLOTS, place, parts[k].y, m);
         vf_scatter(reals + (3 * k + 2) * TILE_SLOTS, place, parts[k].z, m);
     }
-    const vi int_place = pending_place(slots, count, PENDING_INTS(HAS_INSTANCES));
+    const vi int_place = pending_place(slots, count, PENDING_INTS(HAS_INSTANCES, HAS_HIT_RANDOM));
     vi_scatter(ints, int_place, ray->self, m);
     vi_scatter(ints + TILE_SLOTS, int_place, depth, m);
 #if HAS_INSTANCES
     vi_scatter(ints + 2 * TILE_SLOTS, int_place, instance, m);
+#endif
+#if HAS_HIT_RANDOM
+    vi_scatter(ints + (2 + HAS_INSTANCES) * TILE_SLOTS, int_place, ray->path, m);
 #endif
     state_store_int(s, PENDING_COUNT, slots, count + 1, m);
 }
@@ -122,15 +161,18 @@ OUTLINE void unpark_ray(const State *s, const Slots *slots, vm m)
     NextRay ray;
     v3 *parts[3] = { &ray.org, &ray.dir, &ray.throughput };
     for (int k = 0; k < 3; k++)
-        *parts[k] = v3_make(vf_gather(reals + 3 * k * TILE_SLOTS, place),
-                            vf_gather(reals + (3 * k + 1) * TILE_SLOTS, place),
-                            vf_gather(reals + (3 * k + 2) * TILE_SLOTS, place));
-    const vi int_place = pending_place(slots, entry, PENDING_INTS(HAS_INSTANCES));
+        *parts[k] = v3_make(real_gather(reals + 3 * k * TILE_SLOTS, place),
+                            real_gather(reals + (3 * k + 1) * TILE_SLOTS, place),
+                            real_gather(reals + (3 * k + 2) * TILE_SLOTS, place));
+    const vi int_place = pending_place(slots, entry, PENDING_INTS(HAS_INSTANCES, HAS_HIT_RANDOM));
     vi instance = (vi)(NO_HIT);
     ray.self = vi_gather(ints, int_place);
     const vi depth = vi_gather(ints + TILE_SLOTS, int_place);
 #if HAS_INSTANCES
     instance = vi_gather(ints + 2 * TILE_SLOTS, int_place);
+#endif
+#if HAS_HIT_RANDOM
+    ray.path = vi_gather(ints + (2 + HAS_INSTANCES) * TILE_SLOTS, int_place);
 #endif
     store_ray(s, slots, &ray, depth, instance, m);
     state_store_int(s, PENDING_COUNT, slots, entry, m);
@@ -165,6 +207,9 @@ OUTLINE vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, consta
     first.throughput = v3_select(mirrored.m, mirrored.throughput, through.throughput);
     first.self = mirrored.m ? mirrored.self : through.self;
     first.m = mirrored.m | through.m;
+#if HAS_HIT_RANDOM
+    first.path = mirrored.m ? mirrored.path : through.path;
+#endif
 #endif
     // What the other slots had in flight is done with: all may be overwritten.
     store_ray(s, slots, &first, depth, instance, slots->valid);

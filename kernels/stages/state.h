@@ -41,19 +41,26 @@ enum {
 #if HAS_BRANCHING
     PENDING_COUNT,
 #endif
+#if HAS_HIT_RANDOM
+    PATH,        // of the ray in flight: seed of its random numbers
+#endif
     QUEUE,       // slots with a ray in flight, compacted
     QUEUE_NEXT,  // slots of the shadow rays or the next queue
     INT_FIELDS
 };
-// A parked ray is 3 org, 3 dir, 3 throughput; self, depth and, where there are any, instance.
+// A parked ray is 3 org, 3 dir, 3 throughput; self, depth and, where there are any, instance and path.
 
 typedef char state_reals_check[RADIANCE_END == STATE_REALS(0, 0) ? 1 : -1];
-typedef char state_ints_check[INT_FIELDS == STATE_INTS(HAS_SHADOWS, HAS_BRANCHING, HAS_INSTANCES) ? 1 : -1];
+typedef char state_ints_check
+    [INT_FIELDS == STATE_INTS(HAS_SHADOWS, HAS_BRANCHING, HAS_INSTANCES, HAS_HIT_RANDOM) ? 1 : -1];
 
 typedef struct {
     global real *reals;
     global int *ints;
     uint pending_reals; // first field of parked rays
+#if HAS_HIT_RANDOM
+    int sample_begin, sample_mask; // slot s is of sample sample_begin + (s & sample_mask) of its pixel
+#endif
 } State;
 
 // LANES slots that are worked on together.
@@ -74,10 +81,21 @@ static inline Slots slots_make(global const int *queue, uint position, uint coun
     return slots;
 }
 
+// The LANES slots from `first` on.
+static inline Slots slots_all(uint first)
+{
+    Slots slots;
+    slots.index = (vi)((int)first) + LANE_IOTA;
+    slots.valid = slots.index >= (vi)(0);
+    slots.first = (int)first;
+    slots.consecutive = true;
+    return slots;
+}
+
 static inline vf state_load(const State *s, uint field, const Slots *slots)
 {
     global const real *base = s->reals + field * TILE_SLOTS;
-    return slots->consecutive ? VF_LOAD(base + slots->first) : vf_gather(base, slots->index);
+    return slots->consecutive ? VF_LOAD(base + slots->first) : real_gather(base, slots->index);
 }
 
 static inline vi state_load_int(const State *s, uint field, const Slots *slots)

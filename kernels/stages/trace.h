@@ -52,6 +52,9 @@ OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint coun
                         self_instance);
             batch_aim(&rays, &hits, k, state_load3(s, RAY_DIR, &slots), (vf)(INFINITY));
         }
+#if HAS_AREA_LIGHTS
+        hits.left_out = NO_HIT;
+#endif
         traverse(scene, &rays, &hits, batch_mask(count - begin), false, false, 0);
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);
@@ -105,14 +108,23 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
 }
 #endif
 
-// Traces the shadow rays of a batch of slots towards light number `light` of the pass, those of mask, and
-// adds what arrives to the radiance of the batch.
+// Traces the shadow rays of a batch of slots towards the record, which is that of light number `light` of the
+// pass, those of mask, and adds what arrives to the radiance of the batch.
 static inline void shadow_batch(const State *s, const Hierarchy *scene,
-                                global const MaterialRecord *materials, uint light, uint begin, uint count,
-                                uint mask, uint planes_out, BatchRays *rays, BatchHits *hits, real *radiance)
+                                global const MaterialRecord *materials, global const LightRecord *record,
+                                uint light, uint begin, uint count, uint mask, BatchRays *rays,
+                                BatchHits *hits, real *radiance)
 {
     global const int *queue = s->ints + QUEUE * TILE_SLOTS;
-    const uint fields = SHADOW_LIGHTS + light * SHADOW_FIELDS;
+    const uint fields = SHADOW_LIGHTS + light * SHADOW_FIELDS, planes_out = record->planes;
+#if HAS_OCCLUSION
+    const bool through = HAS_TRANSMITTANCE && record->kind != LIGHT_KIND_OCCLUSION;
+#else
+    const bool through = HAS_TRANSMITTANCE;
+#endif
+#if HAS_AREA_LIGHTS
+    hits->left_out = record->surface;
+#endif
     real gain[3 * BATCH];
     for (int k = 0; k < BATCH; k += LANES) {
         const Slots slots = slots_make(queue, begin + (uint)k, count);
@@ -128,13 +140,14 @@ static inline void shadow_batch(const State *s, const Hierarchy *scene,
     for (int k = 0; k < BATCH; k++)
         tfar[k] = hits->tfar[k];
 #endif
-    traverse(scene, rays, hits, mask, true, HAS_TRANSMITTANCE, planes_out);
+    traverse(scene, rays, hits, mask, true, through, planes_out);
     uint open = 0;
     for (int k = 0; k < BATCH; k += LANES)
         open |= vm_bits(VI_LOAD(&hits->primitive[k]) == (vi)(NO_HIT)) << k;
     open &= mask;
 #if HAS_TRANSMITTANCE
-    transmit_shadows(scene, materials, rays, hits, tfar, open, planes_out, gain);
+    if (through)
+        transmit_shadows(scene, materials, rays, hits, tfar, open, planes_out, gain);
 #endif
     for (int k = 0; k < BATCH; k += LANES) {
         const vm lit = vm_from_bits(open >> k);
@@ -176,8 +189,8 @@ OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global con
                 mask |= vm_bits((VI_LOAD(&flags[k]) & (vi)(1 << light)) != (vi)(0)) << k;
             *traced += popcount(mask);
             if (mask)
-                shadow_batch(s, scene, materials, light, begin, count, mask, lights[light].planes, &rays,
-                             &hits, radiance);
+                shadow_batch(s, scene, materials, &lights[light], light, begin, count, mask, &rays, &hits,
+                             radiance);
         }
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);

@@ -7,7 +7,7 @@ small_scene >scene.txt
 
 expect 0 '' "$clrt" --help
 grep -q '^Usage: clrt \[options\] SCENE OUT' stdout || fail "no usage text"
-for option in device list-devices json memory threads size samples seed depth crop bits exposure tone-map check \
+for option in device list-devices json memory threads size samples seed depth crop math bits exposure tone-map check \
     stats quiet verbose help version; do
     grep -q -e "--$option" stdout || fail "--help says nothing of --$option"
 done
@@ -37,7 +37,9 @@ expect 2 'SCENE and OUT are missing' "$clrt"
 expect 2 'OUT is missing' "$clrt" scene.txt
 expect 2 "did you mean '--samples'" "$clrt" --sampels 4 scene.txt out.png
 expect 2 '--size' "$clrt" --size 0x0 scene.txt out.png
-expect 2 'not supported yet' "$clrt" --math double scene.txt out.png
+expect 2 'not supported yet' "$clrt" --part 1/2 scene.txt out.png
+expect 2 "--math 'exakt': must be exact, fast or double" "$clrt" --math exakt scene.txt out.png
+expect 2 '--math needs a value' "$clrt" scene.txt out.png --math
 expect 2 '--help' "$clrt" scene.txt out.png more
 if [ -e /dev/full ]; then
     "$clrt" --help >/dev/full 2>stderr

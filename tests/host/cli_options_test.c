@@ -90,6 +90,9 @@ static void reads_values(void **state)
     assert_int_equal(options.bits, 16);
     assert_int_equal(options.memory, 256u << 20);
     assert_int_equal(options.threads, 3);
+    assert_int_equal(options.math, MATH_EXACT);
+    assert_int_equal(accepted("--math fast a b").math, MATH_FAST);
+    assert_int_equal(accepted("--math=double a b").math, MATH_DOUBLE);
     options = accepted("--seed 0 --depth 0 --exposure -1.5 --crop 65535,0,1,65536 a b");
     assert_true(options.seed_given && options.depth_given && options.exposure_given && options.crop_given);
     assert_int_equal(options.seed, 0);
@@ -125,7 +128,7 @@ static void refuses_values_out_of_range(void **state)
         "--exposure inf", "--exposure nan", "--exposure 0x1", "--exposure 1e39", "--tone-map filmic",
         "--tone-map reinhard_extended", "--tone-map reinhard_extended,0", "--tone-map reinhard_extended,-1",
         "--memory 0", "--memory 16777217",
-        "--threads 0", "--stats=", "--samples="};
+        "--threads 0", "--math fat", "--math Exact", "--math=", "--stats=", "--samples="};
     for (size_t i = 0; i < sizeof LINES / sizeof LINES[0]; i++) {
         char line[128];
         Options options;
@@ -168,7 +171,6 @@ static void refuses_with_words(void **state)
 static void says_what_comes_later(void **state)
 {
     (void)state;
-    refused("--math fast a b", "--math is not supported yet");
     refused("--error=0.1 a b", "--error is not supported yet");
     refused("--confidence 0.9 a b", "--confidence is not supported yet");
     refused("--time 5 a b", "--time is not supported yet");

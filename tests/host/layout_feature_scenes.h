@@ -84,7 +84,14 @@ static const FeatureScenes feature_scenes[] = {
     {FEATURE_BRANCHING, MATERIAL_M("transmit 0.5 reflect 0.5") SHAPE_BALL_OF("m"),
      MATERIAL_M("transmit 0.5") SHAPE_BALL_OF("m")},
     {FEATURE_ORTHOGRAPHIC, "camera { orthographic 3 }\n" SHAPE_BALL, "camera { fov 40 }\n" SHAPE_BALL},
+    {FEATURE_PBR, "material m pbr { }\n" SHAPE_BALL_OF("m") LIGHT_LAMP, MATERIAL_M("") SHAPE_BALL_OF("m") LIGHT_LAMP},
     {FEATURE_SAMPLES, "image { samples 4 }\n" SHAPE_BALL, "image { samples 1 }\n" SHAPE_BALL},
+    {FEATURE_APERTURE, "camera { aperture 0.1 }\n" SHAPE_BALL, "camera { aperture 0 }\n" SHAPE_BALL},
+    {FEATURE_FILTER_TENT, "image { samples 4 filter tent }\n" SHAPE_BALL, "image { samples 1 filter tent }\n" SHAPE_BALL},
+    {FEATURE_FILTER_TABLE, "image { samples 4 filter gaussian }\n" SHAPE_BALL,
+     "image { samples 4 filter tent }\n" SHAPE_BALL},
+    {FEATURE_FILTER_LOBES, "image { samples 4 filter mitchell }\n" SHAPE_BALL,
+     "image { samples 4 filter gaussian }\n" SHAPE_BALL},
 };
 
 enum { FEATURE_SCENE_COUNT = sizeof feature_scenes / sizeof *feature_scenes };

@@ -164,6 +164,22 @@ static void test_png_chunks(void **state)
     assert_true(find_bytes(bytes, length, "tEXtSoftware\0clrt 1.2", 21));
     assert_true(find_bytes(bytes, length, "iTXtScene\0\0\0\0\0caf\xc3\xa9.txt", 23));
 
+    // What is known after the last row follows it; what was before is there once.
+    const OutputText late[] = {{"Comment", "after the rows"}, {"Warning", "caf\xc3\xa9"}};
+    Output *output = output_open(path, &options, WIDTH, HEIGHT, &error);
+    assert_non_null(output);
+    assert_true(output_write_rows(output, f->rows, HEIGHT, &error));
+    assert_true(output_add_texts(output, late, 2, &error));
+    assert_true(output_commit(output, &error));
+    const size_t longer = read_bytes(path, bytes, sizeof bytes);
+    const char closing[] = "tEXtComment\0after the rows", image[] = "IDAT";
+    assert_true(find_bytes(bytes, longer, closing, sizeof closing - 1));
+    assert_true(find_bytes(bytes, longer, "iTXtWarning\0\0\0\0\0caf\xc3\xa9", 21));
+    const size_t two_chunks = 2 * 12 + (sizeof closing - 1 - 4) + 17;
+    assert_int_equal(longer, length + two_chunks);
+    assert_true(find_bytes(bytes, longer - two_chunks, image, 4));
+    assert_false(find_bytes(bytes, longer - two_chunks - 12, closing, sizeof closing - 1));
+
     options = (OutputOptions){.bits = 8, .settings.encoding = ENCODING_LINEAR};
     assert_true(write_picture(f, path, &options, &error));
     length = read_bytes(path, bytes, sizeof bytes);
@@ -208,9 +224,9 @@ static void test_suffixes(void **state)
     const struct {
         const char *name, *says;
     } refused[] = {
-        {"a.exr", "not supported yet"}, {"a.hdr", "not supported yet"}, {"a.jpg", ".png or .pfm"},
-        {"a", ".png or .pfm"},          {"png", ".png or .pfm"},        {"a.png/b", ".png or .pfm"},
-        {"a.pngx", ".png or .pfm"},     {"a.pn", ".png or .pfm"},
+        {"a.jpg", ".png, .exr, .hdr or .pfm"},  {"a", ".png, .exr, .hdr or .pfm"},
+        {"png", ".png, .exr, .hdr or .pfm"},    {"a.png/b", ".png, .exr, .hdr or .pfm"},
+        {"a.pngx", ".png, .exr, .hdr or .pfm"}, {"a.pn", ".png, .exr, .hdr or .pfm"},
     };
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         Error error;
@@ -222,6 +238,8 @@ static void test_suffixes(void **state)
         assert_int_equal(count_files(f), 0);
     }
     assert_true(output_ignores_display_settings("x/a.PFM"));
+    assert_true(output_ignores_display_settings("a.hdr"));
+    assert_true(output_ignores_display_settings("a.Exr"));
     assert_false(output_ignores_display_settings("x.pfm/a.png"));
     assert_false(output_ignores_display_settings("-"));
 }

@@ -14,7 +14,8 @@ static void compare(Device *device, FeatureSet features)
 {
     Error error = {0};
     char options[4096];
-    const size_t length = render_program_options(features, device_info(device), options, sizeof options);
+    const size_t length =
+        render_program_options(features, device_info(device), MATH_EXACT, options, sizeof options);
     assert_true(length < sizeof options);
     Program *program = program_create(device, clrt_kernel_source, clrt_kernel_source_size, options, &error);
     if (!program)

@@ -50,10 +50,10 @@ static u64 least_memory(const Layout *layout, const DeviceInfo *info, u32 width,
     u64 low = 1, high = 64 * gib; // 0 is no limit
     Plan plan;
     Error error;
-    assert_true(plan_make(&plan, layout, info, width, height, high, &error));
+    assert_true(plan_make(&plan, layout, info, MATH_EXACT, width, height, high, &error));
     while (low < high) {
         const u64 middle = (low + high) / 2;
-        if (plan_make(&plan, layout, info, width, height, middle, &error)) {
+        if (plan_make(&plan, layout, info, MATH_EXACT, width, height, middle, &error)) {
             high = middle;
         } else {
             assert_int_equal(error.code, ERROR_MEMORY);
@@ -78,7 +78,7 @@ static void test_limits(void **state)
             for (u64 limit = least; limit <= 64 * gib; limit += limit / 2) {
                 Plan plan;
                 Error error = {0};
-                assert_true(plan_make(&plan, layout, info, width, height, limit, &error));
+                assert_true(plan_make(&plan, layout, info, MATH_EXACT, width, height, limit, &error));
                 check_plan(&plan, width, height);
                 assert_true(scene_bytes(layout) + plan_bytes(&plan) <= limit);
                 // More memory never makes less of it.
@@ -104,15 +104,15 @@ static void test_too_small(void **state)
     Plan plan;
     Error error = {0};
     const DeviceInfo large = device_of(DEVICE_CPU, 2, gib), tiny = device_of(DEVICE_CPU, 2, mib);
-    assert_false(plan_make(&plan, layout, &large, 65536, 16, mib, &error));
+    assert_false(plan_make(&plan, layout, &large, MATH_EXACT, 65536, 16, mib, &error));
     assert_int_equal(error.code, ERROR_MEMORY);
     assert_non_null(strstr(error.text, "1 MiB"));
     assert_non_null(strstr(error.text, "13 MiB")); // 12 MiB of film, and the rest
     memset(&error, 0, sizeof error);
-    assert_false(plan_make(&plan, layout, &tiny, 65536, 16, 0, &error));
+    assert_false(plan_make(&plan, layout, &tiny, MATH_EXACT, 65536, 16, 0, &error));
     assert_int_equal(error.code, ERROR_MEMORY);
-    assert_false(plan_make(&plan, layout, &tiny, 65536, 16, gib, &error));
-    assert_true(plan_make(&plan, layout, &large, 65536, 16, 0, &error));
+    assert_false(plan_make(&plan, layout, &tiny, MATH_EXACT, 65536, 16, gib, &error));
+    assert_true(plan_make(&plan, layout, &large, MATH_EXACT, 65536, 16, 0, &error));
     layout_destroy(layout);
 }
 
@@ -124,19 +124,19 @@ static void test_roomy(void **state)
     Plan plan;
     Error error = {0};
     const DeviceInfo cpu = device_of(DEVICE_CPU, 2, 8 * gib), gpu = device_of(DEVICE_GPU, 80, 8 * gib);
-    assert_true(plan_make(&plan, layout, &cpu, 800, 600, 0, &error));
+    assert_true(plan_make(&plan, layout, &cpu, MATH_EXACT, 800, 600, 0, &error));
     assert_int_equal(plan.band_rows, 600);
     assert_true(plan.groups >= 2 * 2);
     assert_true(plan.shape.group == 1 && plan.shape.lanes == 8 && plan.shape.batch % 8 == 0);
-    assert_true(plan_make(&plan, layout, &gpu, 800, 600, 0, &error));
+    assert_true(plan_make(&plan, layout, &gpu, MATH_EXACT, 800, 600, 0, &error));
     assert_int_equal(plan.band_rows, 600);
     assert_true(plan.groups == plan_tiles(&plan, 600) && plan_tiles(&plan, 600) == 50 * 38);
     assert_true(plan.shape.lanes == 1 && plan.shape.batch == 1 && plan.shape.group > 1);
     // The first launch is short: few samples of a large image, more of a small one, at least one.
     assert_int_equal(plan_first_samples(&plan), 4);
-    assert_true(plan_make(&plan, layout, &cpu, 65536, 65536, 0, &error));
+    assert_true(plan_make(&plan, layout, &cpu, MATH_EXACT, 65536, 65536, 0, &error));
     assert_int_equal(plan_first_samples(&plan), 1);
-    assert_true(plan_make(&plan, layout, &cpu, 1, 1, 0, &error));
+    assert_true(plan_make(&plan, layout, &cpu, MATH_EXACT, 1, 1, 0, &error));
     assert_int_equal(plan_first_samples(&plan), 64);
     layout_destroy(layout);
 }
@@ -149,10 +149,10 @@ static void test_allocation(void **state)
     DeviceInfo gpu = device_of(DEVICE_GPU, 80, 8 * gib);
     Plan plan;
     Error error = {0};
-    assert_true(plan_make(&plan, layout, &gpu, 4096, 4096, 0, &error));
+    assert_true(plan_make(&plan, layout, &gpu, MATH_EXACT, 4096, 4096, 0, &error));
     const u32 groups = plan.groups;
     gpu.allocation_max = 100 * mib;
-    assert_true(plan_make(&plan, layout, &gpu, 4096, 4096, 0, &error));
+    assert_true(plan_make(&plan, layout, &gpu, MATH_EXACT, 4096, 4096, 0, &error));
     assert_true(plan.groups < groups && plan.groups > 100);
     assert_true((u64)plan.groups * plan.real_fields * TILE_SLOTS * 4 <= gpu.allocation_max);
     layout_destroy(layout);
@@ -183,7 +183,7 @@ static void test_fields(void **state)
         Layout *layout = layout_good(scenes[i].text);
         Plan plan;
         Error error = {0};
-        assert_true(plan_make(&plan, layout, &cpu, 64, 64, 0, &error));
+        assert_true(plan_make(&plan, layout, &cpu, MATH_EXACT, 64, 64, 0, &error));
         reals = i ? reals : plan.real_fields;
         ints = i ? ints : plan.int_fields;
         assert_int_equal(plan.real_fields, reals + scenes[i].reals);
@@ -204,19 +204,54 @@ static void test_many_lights(void **state)
     const DeviceInfo cpu = device_of(DEVICE_CPU, 2, gib);
     Plan plan;
     Error error = {0};
-    assert_true(plan_make(&plan, layout, &cpu, 64, 64, 0, &error));
+    assert_true(plan_make(&plan, layout, &cpu, MATH_EXACT, 64, 64, 0, &error));
     assert_int_equal(plan.lights_per_pass, LIGHTS_PER_PASS_MAX);
     layout_destroy(layout);
 }
 
-static void expect_shape(const char *wish, const DeviceInfo *info, u32 lanes, u32 batch, u32 group)
+static void expect_shape_of(MathMode math, const char *wish, const DeviceInfo *info, u32 lanes, u32 batch,
+                            u32 group)
 {
     if (wish)
         setenv("CLRT_SHAPE", wish, 1);
-    const DeviceShape shape = plan_device_shape(info);
+    const DeviceShape shape = plan_device_shape(info, math);
     unsetenv("CLRT_SHAPE");
     if (shape.lanes != lanes || shape.batch != batch || shape.group != group)
         fail_msg("%s: %u,%u,%u", wish, shape.lanes, shape.batch, shape.group);
+}
+
+static void expect_shape(const char *wish, const DeviceInfo *info, u32 lanes, u32 batch, u32 group)
+{
+    expect_shape_of(MATH_EXACT, wish, info, lanes, batch, group);
+}
+
+// Doubles go one by one on every device, whatever is asked for.
+static void test_shapes_of_doubles(void **state)
+{
+    (void)state;
+    const DeviceInfo cpu = device_of(DEVICE_CPU, 2, gib), gpu = device_of(DEVICE_GPU, 2, gib);
+    expect_shape_of(MATH_DOUBLE, NULL, &cpu, 1, 1, 1);
+    expect_shape_of(MATH_DOUBLE, NULL, &gpu, 1, 1, 64);
+    expect_shape_of(MATH_DOUBLE, "1,1,16", &cpu, 1, 1, 16);
+    expect_shape_of(MATH_DOUBLE, "8,32,1", &cpu, 1, 1, 1);
+    expect_shape_of(MATH_DOUBLE, "1,8,1", &cpu, 1, 1, 1);
+    expect_shape_of(MATH_FAST, NULL, &cpu, 8, 32, 1);
+}
+
+// Their state takes twice the room.
+static void test_state_of_doubles(void **state)
+{
+    (void)state;
+    Layout *layout = layout_good(plain_scene);
+    Plan floats, doubles;
+    Error error = {0};
+    const DeviceInfo gpu = device_of(DEVICE_GPU, 2, 8 * gib);
+    assert_true(plan_make(&floats, layout, &gpu, MATH_FAST, 64, 64, 0, &error));
+    assert_true(plan_make(&doubles, layout, &gpu, MATH_DOUBLE, 64, 64, 0, &error));
+    assert_true(floats.real_bytes == 4 && doubles.real_bytes == 8);
+    assert_int_equal(plan_state_bytes(&doubles, 3) - plan_state_bytes(&floats, 3),
+                     3 * 4 * TILE_SLOTS * floats.real_fields);
+    layout_destroy(layout);
 }
 
 static void test_shapes(void **state)
@@ -244,17 +279,25 @@ static void test_program_options(void **state)
     (void)state;
     DeviceInfo cpu = device_of(DEVICE_CPU, 2, gib);
     char text[4096];
-    size_t length = render_program_options(feature_bit(FEATURE_CONE), &cpu, text, sizeof text);
+    size_t length = render_program_options(feature_bit(FEATURE_CONE), &cpu, MATH_EXACT, text, sizeof text);
     assert_int_equal(length, strlen(text));
     assert_true(length < 2048); // what the render has room for
     assert_non_null(strstr(text, "-DLANES=8 -DBATCH=32 -DGROUP=1"));
     assert_non_null(strstr(text, "-DHAS_CONE=1"));
     assert_null(strstr(text, "correctly-rounded"));
+    assert_non_null(strstr(text, "-DMATH_FAST=0 -DMATH_DOUBLE=0"));
     cpu.exact_divide = true;
-    length = render_program_options(feature_bit(FEATURE_CONE), &cpu, text, 10);
+    length = render_program_options(feature_bit(FEATURE_CONE), &cpu, MATH_EXACT, text, 10);
     assert_true(text[9] == 0 && length > 10);
-    render_program_options(feature_bit(FEATURE_CONE), &cpu, text, sizeof text);
+    render_program_options(feature_bit(FEATURE_CONE), &cpu, MATH_EXACT, text, sizeof text);
     assert_non_null(strstr(text, "-cl-fp32-correctly-rounded-divide-sqrt"));
+    render_program_options(feature_bit(FEATURE_CONE), &cpu, MATH_DOUBLE, text, sizeof text);
+    assert_non_null(strstr(text, "-DLANES=1 -DBATCH=1 -DGROUP=1 -DMATH_FAST=0 -DMATH_DOUBLE=1"));
+    render_program_options(feature_bit(FEATURE_CONE), &cpu, MATH_FAST, text, sizeof text);
+    assert_non_null(strstr(text, "-DMATH_FAST=1 -DMATH_DOUBLE=0"));
+    assert_null(strstr(text, "correctly-rounded"));
+    assert_null(strstr(text, "finite-math"));
+    assert_null(strstr(text, "relaxed"));
 }
 
 int main(void)
@@ -264,6 +307,7 @@ int main(void)
         cmocka_unit_test(test_limits),          cmocka_unit_test(test_too_small),
         cmocka_unit_test(test_roomy),           cmocka_unit_test(test_fields),
         cmocka_unit_test(test_many_lights),     cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_shapes_of_doubles), cmocka_unit_test(test_state_of_doubles),
         cmocka_unit_test(test_program_options), cmocka_unit_test(test_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,7 +4,9 @@
 // The measure is backward: an answer is K input ulps off if it is right for the shape with its surface moved
 // by K half-ulps of the coordinates that went in (ray, hit point, place and size of the shape). That is what
 // no float32 code can know better than, and it says the right thing at silhouettes, edges and far away.
-#include "shapes_random.h"
+#include "reference/accept.h"
+#include "reference/placed.h"
+#include "shapes_support.h"
 
 #include <math.h>
 
@@ -25,7 +27,7 @@ typedef struct Verdicts {
 
 typedef struct Case {
     const Placed *placed;
-    Real3 o, d; // object space
+    ShapeRay ray; // object space
     real exact;
     double scale; // object units: size of the numbers that went in
 } Case;
@@ -55,75 +57,13 @@ static double magnitude(const Placed *p, const RayTable *table, size_t i, double
     return worst + p->size;
 }
 
-// Whether the ray starts so close to the surface that it may start on either side.
-static bool starts_on_surface(const Case *c, real grow)
-{
-    bool on_surface = false;
-    for (int k = 0; k < reference_pieces(&c->placed->shape); ++k) {
-        real distance, uv[2];
-        Real3 normal;
-        on_surface |=
-            reference_piece(&c->placed->shape, k, c->o, &distance, &normal, uv) && fabsl(distance) <= grow;
-    }
-    return on_surface;
-}
-
-// Whether t is a point of the wall of an open cylinder or cone close to its rim, or on a ray that may miss.
-static bool at_open_rim(const Case *c, double t, real grow, bool may_miss)
-{
-    const Shape *s = &c->placed->shape;
-    const bool cone = s->kind == SHAPE_CONE;
-    if ((!cone && s->kind != SHAPE_CYLINDER) || (cone ? s->as.cone.caps : s->as.cylinder.caps))
-        return false;
-    const double height = vec_length(cone ? vec_sub(s->as.cone.top, s->as.cone.base)
-                                          : vec_sub(s->as.cylinder.top, s->as.cylinder.base));
-    real distance, uv[2];
-    Real3 normal;
-    reference_piece(s, 0, real3_add(c->o, real3_scale(c->d, t)), &distance, &normal, uv);
-    return fabsl(distance) <= grow && (may_miss || fminl(uv[1], 1 - uv[1]) * height <= 4 * grow);
-}
-
-// Whether t is an answer for the shape with its surface `ulps` away.
-static bool acceptable(const Case *c, double t, double ulps)
-{
-    const Shape *shape = &c->placed->shape;
-    const real grow = ulps * U * c->scale;
-    const bool flat =
-        shape->kind == SHAPE_PLANE || shape->kind == SHAPE_DISK || shape->kind == SHAPE_TRIANGLE;
-    real slack = 4 * U * fabs(t), sideways = grow;
-    if (flat) {
-        // What moves a ray sideways moves its hit, and the edges as it sees them, by more than that.
-        real distance, uv[2];
-        Real3 normal;
-        reference_piece(shape, 0, c->o, &distance, &normal, uv);
-        const real rate = fabsl(real3_dot(normal, c->d));
-        slack += grow / rate;
-        sideways += grow / rate * real3_length(c->d);
-    }
-    real low = INFINITY, high = 0;
-    const bool ends = shape->kind == SHAPE_CYLINDER || shape->kind == SHAPE_CONE;
-    for (int k = ends ? 0 : 3; k < (ends ? 9 : 6); ++k) { // only ends move on their own
-        const real hit = reference_hit(shape, c->o, c->d, sideways * (k % 3 - 1), grow * (k / 3 - 1), 0);
-        low = fminl(low, hit);
-        high = fmaxl(high, hit);
-    }
-    const bool on_surface = starts_on_surface(c, grow);
-    if (isinf(t))
-        return isinf(high) || (on_surface && flat);
-    if (flat && isinf(low))
-        return on_surface && t <= 2 * slack;
-    if (t >= (on_surface ? 0 : low - slack) && t <= high + slack)
-        return true;
-    return at_open_rim(c, t, grow, isinf(high));
-}
-
 static void judge_t(const Case *c, const RayTable *table, size_t i, Verdicts *v)
 {
     const double t = hit_number(table, i, HIT_T);
     double ulps = 0.5;
     const real off = fabsl(t - c->exact);
-    const bool close = off * real3_length(c->d) <= ulps * U * c->scale;
-    while (!close && ulps <= 64 && !acceptable(c, t, ulps))
+    const bool close = off * real3_length(c->ray.d) <= ulps * U * c->scale;
+    while (!close && ulps <= 64 && !reference_accepts(&c->ray, t, ulps * U * c->scale, 4 * U * fabs(t)))
         ulps *= 2;
     if (ulps > ALLOWED_ULPS) {
         if (v->wrong++ < 8)
@@ -218,8 +158,10 @@ static void judge(const Placed *placed, const RayTable *table, Verdicts *v)
     for (size_t i = 0; i < table->count; ++i) {
         const Placed *p = &placed[table->index[i]];
         const Real3 o = ray_vector(table, i, RAY_ORG), d = ray_vector(table, i, RAY_DIR);
-        Case c = {.placed = p, .o = real_map_point(&p->inverse, o), .d = real_map_direction(&p->inverse, d)};
-        c.exact = reference_hit(&p->shape, c.o, c.d, 0, 0, 0);
+        Case c = {.placed = p, .ray.shape = &p->shape};
+        c.ray.o = real_map_point(&p->inverse, o);
+        c.ray.d = real_map_direction(&p->inverse, d);
+        c.exact = reference_hit(&p->shape, c.ray.o, c.ray.d, 0, 0, 0);
         const double t = hit_number(table, i, HIT_T), exact = (double)c.exact;
         c.scale = magnitude(p, table, i, isfinite(t) ? t : isfinite(exact) ? exact : 0);
         judge_t(&c, table, i, v);
@@ -229,7 +171,7 @@ static void judge(const Placed *placed, const RayTable *table, Verdicts *v)
         judge_surface(&c, table, i, v);
         const bool from_camera = o.x == 0 && o.y == 0 && o.z == 0;
         const bool steep = fabsl(real3_dot(hit_vector(table, i, HIT_NG), d)) > 0.3L * real3_length(d);
-        if (from_camera && steep && !at_open_rim(&c, t, ALLOWED_ULPS * U * c.scale, false))
+        if (from_camera && steep && !reference_at_open_rim(&c.ray, t, ALLOWED_ULPS * U * c.scale, false))
             v->worst_t_ulps = fmax(v->worst_t_ulps, ulps_between(exact, (float)t));
     }
 }
@@ -239,11 +181,13 @@ static void shape_family(KernelDevice *device, const Family *family, uint64_t se
     uint64_t state = seed;
     static Placed placed[SHAPES];
     static Primitive primitives[SHAPES];
-    random_placed(family, placed, primitives, SHAPES, &state);
+    Error error;
+    for (int i = 0; i < SHAPES; ++i)
+        assert_true(random_placed(family, PLACING_ANY, &placed[i], &primitives[i], &state, &error));
     const size_t rays = shapes_long_run() ? LONG_RAYS : RAYS;
     RayTable table = ray_table_create(rays);
     for (size_t i = 0; i < rays; ++i)
-        add_random_ray(&table, &placed[i % SHAPES], (int)(i % SHAPES), &state);
+        ray_table_add_random(&table, (int)(i % SHAPES), &placed[i % SHAPES], &state);
     KernelProgram *program = shapes_program(device, family->primitive, LANES);
     shapes_run(program, LANES, &table, primitives, SHAPES);
     kernel_program_destroy(program);

@@ -1,5 +1,6 @@
 // The same bits for every width of lanes: shapes of every kind side by side in one vector, and ray by ray.
-#include "shapes_random.h"
+#include "reference/placed.h"
+#include "shapes_support.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,14 +19,16 @@ static void same_bits(void **state)
     static Placed placed[FAMILY_COUNT * SHAPES];
     static Primitive primitives[FAMILY_COUNT * SHAPES];
     uint64_t random = 5;
-    for (int k = 0; k < FAMILY_COUNT; ++k)
-        random_placed(&shape_families[k], placed + k * SHAPES, primitives + k * SHAPES, SHAPES, &random);
+    Error error;
+    for (int i = 0; i < FAMILY_COUNT * SHAPES; ++i)
+        assert_true(random_placed(&shape_families[i / SHAPES], PLACING_ANY, &placed[i], &primitives[i], &random,
+                                  &error));
     RayTable table = ray_table_create(shapes_long_run() ? LONG_RAYS : RAYS);
     for (size_t i = 0; i < table.capacity; ++i) {
         // Runs of 64 rays at one shape, then 64 at shapes of all kinds.
         const size_t shape = (i & 64 ? i : i / 128) % (FAMILY_COUNT * SHAPES);
         const size_t mixed = i & 64 ? shape % FAMILY_COUNT * SHAPES + shape / FAMILY_COUNT : shape;
-        add_random_ray(&table, &placed[mixed], (int)mixed, &random);
+        ray_table_add_random(&table, (int)mixed, &placed[mixed], &random);
     }
     const size_t numbers = HIT_COLUMNS * table.capacity;
     float *wide = malloc(sizeof(float) * numbers);

@@ -1,6 +1,6 @@
 // Hard cases of curved shapes with known answers: distant, giant, tiny and grazed spheres; tori by double
 // roots; cylinders and cones along axes and generators.
-#include "shapes_reference.h"
+#include "reference/shapes.h"
 #include "shapes_support.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // No ray meets the surface that it starts on, and none that starts on it is lost: by the rule of
 // RayLanes.self, and for convex shapes also without it, because rays leave by the error bound of the point.
-#include "shapes_reference.h"
+#include "reference/shapes.h"
 #include "shapes_support.h"
 
 #include <math.h>

@@ -236,6 +236,13 @@ bool ray_table_add(RayTable *table, int primitive, const float org[3], const flo
     return true;
 }
 
+void ray_table_add_random(RayTable *table, int primitive, const Placed *p, uint64_t *state)
+{
+    float org[3], dir[3];
+    random_ray(p, RAY_ANY, state, org, dir);
+    ray_table_add(table, primitive, org, dir);
+}
+
 void ray_table_add_self(RayTable *table, int primitive, const float org[3], const float dir[3], bool inward)
 {
     if (!ray_table_add(table, primitive, org, dir))

@@ -5,6 +5,7 @@
 #include "harness.h"
 
 #include "layout/bake.h"
+#include "reference/placed.h"
 
 // Rays and answers, one place each, as columns of `capacity` floats; capacity is a multiple of 16.
 typedef struct RayTable {
@@ -34,6 +35,8 @@ void ray_table_destroy(RayTable *table);
 void ray_table_clear(RayTable *table);
 // Adds a ray; false where the table is full.
 bool ray_table_add(RayTable *table, int primitive, const float org[3], const float dir[3]);
+// Adds random_ray of RAY_ANY.
+void ray_table_add_random(RayTable *table, int primitive, const Placed *p, uint64_t *state);
 void ray_table_add_self(RayTable *table, int primitive, const float org[3], const float dir[3], bool inward);
 float ray_number(const RayTable *table, size_t i, int column);
 float hit_number(const RayTable *table, size_t i, int column);

@@ -1,5 +1,7 @@
 #include "hit.h"
 
+#include "texture.h"
+
 /* What rounding can make of a distance from the primitive's surface along this ray. */
 static real tolerance(const Primitive *primitive, const Ray *ray)
 {
@@ -55,7 +57,7 @@ static int crossings_ahead(const Primitive *primitive, const Ray *ray, Line *loc
     return count;
 }
 
-static void fill_hit(const Ray *ray, const Line *local, const Crossing *crossing, Hit *hit)
+static void fill_hit(const Scene *scene, const Ray *ray, const Line *local, const Crossing *crossing, Hit *hit)
 {
     const Transform *to_local = &hit->primitive->to_local;
     hit->t = crossing->t;
@@ -65,6 +67,7 @@ static void fill_hit(const Ray *ray, const Line *local, const Crossing *crossing
     hit->surface = shape_surface(hit->primitive->shape, hit->local, hit->patch);
     hit->normal = transform_normal(to_local, hit->surface.normal);
     hit->shading = transform_normal(to_local, hit->surface.shading);
+    hit->shading = mapped_normal(scene, hit->primitive, hit->local, &hit->surface, hit->shading);
     if (dot(hit->shading, hit->normal) < 0)
         hit->shading = scaled(hit->shading, -1);
 }
@@ -102,7 +105,7 @@ bool hit_closest(const Scene *scene, const Ray *ray, Hit *hit)
     hit->primitive = best.primitive;
     if (hit->primitive == NULL)
         return false;
-    fill_hit(ray, &best.local, &best.crossing, hit);
+    fill_hit(scene, ray, &best.local, &best.crossing, hit);
     return true;
 }
 
@@ -149,7 +152,8 @@ static bool already_crossed(EdgeList *edges, const Primitive *primitive, const C
 }
 
 /* The product of k_t over the crossings with one primitive. */
-static Vec primitive_transmittance(const Primitive *primitive, const Ray *ray, real distance, EdgeList *edges)
+static Vec primitive_transmittance(const Scene *scene, const Primitive *primitive, const Ray *ray,
+                                   real distance, EdgeList *edges)
 {
     Vec product = grey(1);
     Line local;
@@ -158,13 +162,18 @@ static Vec primitive_transmittance(const Primitive *primitive, const Ray *ray, r
     for (int k = 0; k < count; k++) {
         if (crossings[k].t >= distance - tolerance(primitive, ray))
             continue;
-        if (!already_crossed(edges, primitive, &crossings[k]))
-            product = times(product, primitive->material->transmit);
+        if (already_crossed(edges, primitive, &crossings[k]))
+            continue;
+        Vec p = add(local.o, scaled(local.d, crossings[k].t));
+        Surface surface = {0};
+        if (primitive->material->pbr)
+            surface = shape_surface(primitive->shape, p, crossings[k].patch);
+        product = times(product, shadow_transmit(scene, primitive, p, &surface));
     }
     return product;
 }
 
-Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance)
+Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance, int light)
 {
     Vec product = grey(1);
     EdgeList edges = {.count = 0};
@@ -172,7 +181,26 @@ Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance)
         if (run_is_missed(&scene->runs[run], ray))
             continue;
         for (size_t i = scene->runs[run].first; i < scene->runs[run].end && largest(product) > 0; i++)
-            product = times(product, primitive_transmittance(&scene->primitives[i], ray, distance, &edges));
+            if (light < 0 || scene->primitives[i].light != light)
+                product = times(product, primitive_transmittance(scene, &scene->primitives[i], ray, distance,
+                                                                 &edges));
     }
     return product;
+}
+
+bool hit_any(const Scene *scene, const Ray *ray, real distance)
+{
+    for (size_t run = 0; run < scene->run_count; run++) {
+        if (run_is_missed(&scene->runs[run], ray))
+            continue;
+        for (size_t i = scene->runs[run].first; i < scene->runs[run].end; i++) {
+            Line local;
+            Crossing crossings[CROSSINGS_MAX];
+            int count = crossings_ahead(&scene->primitives[i], ray, &local, crossings);
+            for (int k = 0; k < count; k++)
+                if (crossings[k].t <= distance)
+                    return true;
+        }
+    }
+    return false;
 }

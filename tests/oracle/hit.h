@@ -20,11 +20,14 @@ typedef struct Hit {
     Vec local;       /* the same in the shape's space */
     Surface surface; /* in the shape's space */
     Vec normal;      /* world, geometric, outward, unit */
-    Vec shading;     /* world, unit, on the side of `normal` */
+    Vec shading;     /* world, unit, interpolated or mapped, on the side of `normal` */
 } Hit;
 
 bool hit_closest(const Scene *scene, const Ray *ray, Hit *hit);
-/* Product of k_t over every surface within the distance. */
-Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance);
+/* Product of k_t over every surface within the distance, but for the area light that the ray goes to: its index, or
+ * -1. */
+Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance, int light);
+/* Whether any surface, also one that transmits, is within the distance. */
+bool hit_any(const Scene *scene, const Ray *ray, real distance);
 
 #endif

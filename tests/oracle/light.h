@@ -2,15 +2,19 @@
 #ifndef ORACLE_LIGHT_H
 #define ORACLE_LIGHT_H
 
+#include "quadrature.h"
 #include "scene.h"
 
 typedef struct Arrival {
     Vec direction;  /* unit, to the light */
     real distance;  /* infinite for directional lights */
-    Vec intensity;  /* attenuated */
+    Vec intensity;  /* attenuated; of an area light its irradiance E, as if all of it stood at this point */
 } Arrival;
 
-/* False where the light gives nothing at p. */
-bool light_arrives(const Light *light, Vec p, Arrival *arrival);
+bool light_is_area(const Light *light);
+/* False where the light gives nothing at p. `s` is the place on an area light: the mean over the square counts. */
+bool light_arrives(const Light *light, Vec p, Square s, Arrival *arrival);
+/* Radiance of an area light's surface towards where a ray of direction d comes from; normal is the outward one. */
+Vec light_seen(const Light *light, Vec d, Vec normal);
 
 #endif

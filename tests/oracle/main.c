@@ -3,13 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film.h"
 #include "picture.h"
-#include "trace.h"
 
 typedef struct Options {
     const char *scene, *out, *unstable;
     int width, height; /* 0: the scene's */
     int bits, grid;    /* grid 0: the pixel's centre, or 16 where the scene has several samples */
+    int points;        /* 0: the scene's default */
     int threshold;     /* levels; 0: one 8-bit level */
     double dx, dy;
     bool pfm;
@@ -20,7 +21,8 @@ static const char USAGE[] =
     "  --size WxH          image size in place of the scene's\n"
     "  --bits 8|16         bits of the PNG's values (8)\n"
     "  --offset DX,DY      moves every sample, in pixels (0,0)\n"
-    "  --samples-grid K    mean of K x K regular positions a pixel\n"
+    "  --samples-grid K    mean of K x K regular positions a pixel, by the filter's weights\n"
+    "  --points N          points of each integral over a light, a lens, a hemisphere (256)\n"
     "  --unstable MASK     also writes a PNG: 255 where the value changes by more than the threshold\n"
     "                      at one of eight positions 0.02 pixel away\n"
     "  --threshold LEVELS  of --unstable, in levels of --bits (one 8-bit level)\n"
@@ -37,6 +39,8 @@ static bool read_option(Options *options, const char *name, const char *value)
         return sscanf(value, "%lf,%lf", &options->dx, &options->dy) == 2;
     if (strcmp(name, "--samples-grid") == 0)
         return sscanf(value, "%d", &options->grid) == 1 && options->grid > 0;
+    if (strcmp(name, "--points") == 0)
+        return sscanf(value, "%d", &options->points) == 1 && options->points > 0;
     if (strcmp(name, "--threshold") == 0)
         return sscanf(value, "%d", &options->threshold) == 1 && options->threshold > 0;
     options->unstable = value;
@@ -65,21 +69,6 @@ static bool read_options(Options *options, int argc, char **argv)
     return options->out != NULL;
 }
 
-/* The pixel's value with its samples moved by (dx, dy) pixels. */
-static Vec pixel_value(const Scene *scene, const Camera *camera, int grid, int x, int y, real dx, real dy)
-{
-    Vec sum = grey(0);
-    for (int j = 0; j < grid; j++) {
-        for (int i = 0; i < grid; i++) {
-            real px = x + (i + 0.5L) / grid + dx;
-            real py = y + (j + 0.5L) / grid + dy;
-            Ray ray = camera_ray(camera, px, py);
-            sum = add(sum, trace_radiance(scene, &ray));
-        }
-    }
-    return scaled(sum, 1.0L / ((real)grid * grid));
-}
-
 static bool differs(const Scene *scene, Vec a, Vec b, int bits, int threshold)
 {
     for (int channel = 0; channel < 3; channel++)
@@ -95,7 +84,7 @@ static bool is_unstable(const Scene *scene, const Camera *camera, const Options 
     for (int i = 0; i < 8; i++) {
         real dx = options->dx + 0.02L * cosl((real)i * PI / 4);
         real dy = options->dy + 0.02L * sinl((real)i * PI / 4);
-        Vec moved = pixel_value(scene, camera, options->grid, x, y, dx, dy);
+        Vec moved = film_pixel(scene, camera, options->grid, x, y, dx, dy);
         if (differs(scene, value, moved, options->bits, options->threshold))
             return true;
     }
@@ -109,7 +98,7 @@ static void render(const Scene *scene, const Options *options, Picture *picture,
     for (int y = 0; y < scene->height; y++) {
         for (int x = 0; x < scene->width; x++) {
             size_t i = (size_t)y * (size_t)scene->width + (size_t)x;
-            picture->pixels[i] = pixel_value(scene, &camera, options->grid, x, y, options->dx, options->dy);
+            picture->pixels[i] = film_pixel(scene, &camera, options->grid, x, y, options->dx, options->dy);
             if (mask != NULL)
                 mask[i] = is_unstable(scene, &camera, options, x, y, picture->pixels[i]) ? 255 : 0;
         }
@@ -130,6 +119,8 @@ int main(int argc, char **argv)
         scene.width = options.width;
         scene.height = options.height;
     }
+    if (options.points > 0)
+        scene.points = options.points;
     if (options.grid == 0)
         options.grid = scene.samples > 1 ? 16 : 1;
     if (options.threshold == 0)

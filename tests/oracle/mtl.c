@@ -13,7 +13,19 @@ static Vec color(const Lines *lines)
     return vec(lines_number(lines, 1), lines_number(lines, 2), lines_number(lines, 3));
 }
 
-static void set(Material *material, const Lines *lines)
+/* A texture of the defaults with the file that the line names. */
+static int file_texture(Scene *scene, const Lines *lines)
+{
+    size_t count = scene->texture_count;
+    Texture texture = {.name = "", .kind = TEXTURE_IMAGE, .scale = {1, 1}, .srgb = true};
+    texture.image = image_read(&scene->store, store_beside(&scene->store, lines->path, lines_rest(lines)));
+    scene->textures = store_grow(&scene->store, scene->textures, count, sizeof texture);
+    scene->textures[count] = texture;
+    scene->texture_count = count + 1;
+    return (int)count;
+}
+
+static void set(Scene *scene, Material *material, const Lines *lines)
 {
     const char *key = lines->words[0];
     if (strcmp(key, "Kd") == 0)
@@ -21,15 +33,17 @@ static void set(Material *material, const Lines *lines)
     else if (strcmp(key, "Ks") == 0)
         material->specular = color(lines);
     else if (strcmp(key, "Ke") == 0)
-        material->emission = color(lines);
+        material->emission.color = color(lines);
     else if (strcmp(key, "Ns") == 0)
         material->shininess = lines_number(lines, 1);
     else if (strcmp(key, "Ni") == 0)
         material->ior = lines_number(lines, 1);
     else if (strcmp(key, "d") == 0)
         material->transmit = grey(1 - (real)lines_number(lines, 1));
-    else if (strncmp(key, "map_Kd", 6) == 0 || strcmp(key, "map_Bump") == 0 || strcmp(key, "norm") == 0)
-        die("%s:%d: `%s`: not in the oracle's part of the language", lines->path, lines->line, key);
+    else if (strcmp(key, "map_Kd") == 0)
+        material->ambient.texture = material->diffuse.texture = file_texture(scene, lines);
+    else if (strcmp(key, "map_Bump") == 0 || strcmp(key, "norm") == 0)
+        material->normal_map = file_texture(scene, lines);
 }
 
 void mtl_read(Scene *scene, const char *path, MtlList *list)
@@ -52,7 +66,7 @@ void mtl_read(Scene *scene, const char *path, MtlList *list)
             list->entries = store_grow(&scene->store, list->entries, list->count, sizeof *list->entries);
             list->entries[list->count++] = (MtlEntry){lines_rest(&lines), (int)count};
         } else if (material != NULL) {
-            set(material, &lines);
+            set(scene, material, &lines);
         }
     }
 }

@@ -34,7 +34,7 @@ static inline Vec pixel_of(const char *text)
     scene.height = 1;
     scene_read_text(&scene, text);
     Camera camera = camera_make(&scene);
-    Ray ray = camera_ray(&camera, scene.width / 2.0L, scene.height / 2.0L);
+    Ray ray = camera_ray(&camera, scene.width / 2.0L, scene.height / 2.0L, vec(0, 0, 0));
     Vec value = trace_radiance(&scene, &ray);
     scene_free(&scene);
     return value;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "light.h"
+#include "look.h"
 #include "oracle_test.h"
 #include "picture.h"
 #include "shape.h"
@@ -27,14 +28,14 @@ static void test_camera(void **state)
     scene_init(&scene);
     scene_read_text(&scene, "image { size 2 2 } camera { fov 90 }");
     Camera camera = camera_make(&scene);
-    Ray ray = camera_ray(&camera, 0.5L, 0.5L);
+    Ray ray = camera_ray(&camera, 0.5L, 0.5L, vec(0, 0, 0));
     assert_vec_near(ray.d, normalized(vec(-0.5L, 0.5L, -1)), 1e-18L);
     scene_free(&scene);
 
     scene_init(&scene);
     scene_read_text(&scene, "image { size 4 2 } camera { position 1 2 3 look_at 1 2 0 orthographic 6 }");
     camera = camera_make(&scene);
-    ray = camera_ray(&camera, 0, 2);
+    ray = camera_ray(&camera, 0, 2, vec(0, 0, 0));
     assert_vec_near(ray.o, vec(1 - 6, 2 - 3, 3), 1e-18L);
     assert_vec_near(ray.d, vec(0, 0, -1), 1e-18L);
     scene_free(&scene);
@@ -146,15 +147,15 @@ static void test_lights(void **state)
     Arrival arrival;
     real c = cosl(PI / 9);
     real t = (c - cosl(PI * 25 / 180)) / (cosl(PI * 15 / 180) - cosl(PI * 25 / 180));
-    assert_true(light_arrives(&scene.lights[0], vec(2 * tanl(PI / 9), 0, 0), &arrival));
+    assert_true(light_arrives(&scene.lights[0], vec(2 * tanl(PI / 9), 0, 0), (Square){0, 0}, &arrival));
     assert_near(arrival.intensity.x, 3 * (3 * t * t - 2 * t * t * t), 1e-17L);
     assert_near(arrival.distance, 2 / c, 1e-18L);
-    assert_true(light_arrives(&scene.lights[1], vec(1.999L, 0, 0), &arrival));
+    assert_true(light_arrives(&scene.lights[1], vec(1.999L, 0, 0), (Square){0, 0}, &arrival));
     assert_near(arrival.intensity.y, 1, 0);
-    assert_false(light_arrives(&scene.lights[1], vec(2.001L, 0, 0), &arrival));
-    assert_true(light_arrives(&scene.lights[2], vec(-1, 0, 0), &arrival));
+    assert_false(light_arrives(&scene.lights[1], vec(2.001L, 0, 0), (Square){0, 0}, &arrival));
+    assert_true(light_arrives(&scene.lights[2], vec(-1, 0, 0), (Square){0, 0}, &arrival));
     assert_near(arrival.intensity.z, 2, 1e-18L);
-    assert_false(light_arrives(&scene.lights[2], vec(1, 0, 0), &arrival));
+    assert_false(light_arrives(&scene.lights[2], vec(1, 0, 0), (Square){0, 0}, &arrival));
     scene_free(&scene);
 }
 
@@ -165,8 +166,8 @@ static void test_checkers(void **state)
     scene_init(&scene);
     scene_read_text(&scene, "texture a checker { colors \"#ffffff\" 0 0.5 0 scale 2 4 }"
                             "texture b checker3d { colors 0.25 0.75 scale 0.5 }");
-    Paint a = {grey(0), 0};
-    Paint b = {grey(0), 1};
+    Paint a = {grey(1), 0};
+    Paint b = {grey(1), 1};
     Surface s = {.u = 0.3L, .v = 0.3L, .normal = vec(0, 1, 0)};
     assert_vec_near(paint_color(&scene, &a, vec(0, 0, 0), &s), vec(0, 0.5L, 0), 0); /* 0 + 1 */
     s.u = -0.3L;

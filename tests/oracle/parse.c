@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "environment.h"
+
 static void parse_image(Parser *parser)
 {
     Scene *scene = parser->scene;
@@ -15,7 +17,10 @@ static void parse_image(Parser *parser)
             scene->samples = (int)parse_number(parser);
         } else if (parse_accept(parser, "seed")) {
             parse_number(parser);
-        } else if (!(parse_accept(parser, "filter") && parse_accept(parser, "box"))) {
+        } else if (parse_accept(parser, "filter")) {
+            static const char *const NAMES[] = {"box", "tent", "gaussian", "mitchell"};
+            scene->filter = (Filter)parse_choice(parser, NAMES, 4);
+        } else {
             parse_unknown(parser, "property");
         }
     }
@@ -36,9 +41,20 @@ static void parse_camera(Parser *parser)
             scene->fov = parse_number(parser);
         else if (parse_accept(parser, "orthographic"))
             scene->orthographic = parse_number(parser);
+        else if (parse_accept(parser, "aperture"))
+            scene->aperture = parse_number(parser);
+        else if (parse_accept(parser, "focus_distance"))
+            scene->focus_distance = parse_number(parser);
         else
             parse_unknown(parser, "property");
     }
+}
+
+/* The number of rays does not matter here: the oracle has the limit of many. */
+static void parse_occlusion(Parser *parser)
+{
+    parse_number(parser);
+    parser->scene->occlusion_distance = parse_number(parser);
 }
 
 static void parse_render(Parser *parser)
@@ -52,6 +68,10 @@ static void parse_render(Parser *parser)
             scene->min_weight = parse_number(parser);
         else if (parse_accept(parser, "shadows"))
             scene->shadows = parse_on_off(parser);
+        else if (parse_accept(parser, "ambient_occlusion"))
+            parse_occlusion(parser);
+        else if (parse_accept(parser, "environment_samples"))
+            parse_number(parser);
         else if (!(parse_accept(parser, "integrator") && parse_accept(parser, "whitted")))
             parse_unknown(parser, "property");
     }
@@ -60,15 +80,9 @@ static void parse_render(Parser *parser)
 static void parse_tone_map(Parser *parser)
 {
     static const char *const NAMES[] = {"none", "reinhard", "reinhard_extended", "aces", "hable"};
-    for (int i = 0; i < 5; i++) {
-        if (!parse_accept(parser, NAMES[i]))
-            continue;
-        parser->scene->tone_map = (ToneMap)i;
-        if (i == TONE_REINHARD_EXTENDED)
-            parser->scene->white = parse_number(parser);
-        return;
-    }
-    parse_unknown(parser, "tone map");
+    parser->scene->tone_map = (ToneMap)parse_choice(parser, NAMES, 5);
+    if (parser->scene->tone_map == TONE_REINHARD_EXTENDED)
+        parser->scene->white = parse_number(parser);
 }
 
 static void parse_output(Parser *parser)
@@ -88,6 +102,25 @@ static void parse_output(Parser *parser)
             parse_unknown(parser, "property");
         }
     }
+}
+
+static void parse_environment(Parser *parser)
+{
+    Scene *scene = parser->scene;
+    Environment *environment = &scene->environment;
+    environment->intensity = grey(1);
+    parse_open(parser);
+    while (!parse_closed(parser)) {
+        if (parse_accept(parser, "file"))
+            environment->image = image_read(&scene->store, parse_path(parser));
+        else if (parse_accept(parser, "intensity"))
+            environment->intensity = parse_color(parser);
+        else if (parse_accept(parser, "rotate"))
+            environment->rotate = parse_number(parser);
+        else
+            parse_unknown(parser, "property");
+    }
+    environment_prepare(&scene->store, environment);
 }
 
 static void append_item(Scene *scene, size_t object, const Item *item)
@@ -120,7 +153,14 @@ static void read_file(Scene *scene, const char *path);
 
 static void parse_include(Parser *parser)
 {
-    read_file(parser->scene, store_beside(&parser->scene->store, parser->path, parse_string(parser)));
+    read_file(parser->scene, parse_path(parser));
+}
+
+static void parse_light_statement(Parser *parser)
+{
+    Item item;
+    if (parse_light(parser, &item))
+        append_item(parser->scene, 0, &item);
 }
 
 static const struct {
@@ -129,7 +169,8 @@ static const struct {
 } STATEMENTS[] = {
     {"image", parse_image},     {"camera", parse_camera},   {"render", parse_render},
     {"output", parse_output},   {"texture", parse_texture}, {"material", parse_material},
-    {"light", parse_light},     {"object", parse_object},   {"include", parse_include},
+    {"light", parse_light_statement}, {"object", parse_object}, {"include", parse_include},
+    {"environment", parse_environment},
 };
 
 static bool parse_statement(Parser *parser)

@@ -55,6 +55,19 @@ bool parse_on_off(Parser *parser)
     return false;
 }
 
+int parse_choice(Parser *parser, const char *const *names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (parse_accept(parser, names[i]))
+            return i;
+    parse_unknown(parser, "value");
+}
+
+const char *parse_path(Parser *parser)
+{
+    return store_beside(&parser->scene->store, parser->path, parse_string(parser));
+}
+
 Vec parse_one_or_three(Parser *parser)
 {
     real x = parse_number(parser);
@@ -88,15 +101,20 @@ Vec parse_color(Parser *parser)
     return vec(channels[0], channels[1], channels[2]);
 }
 
-Paint parse_paint(Parser *parser)
+int parse_texture_name(Parser *parser)
 {
-    if (parser->at->kind != TOKEN_NAME)
-        return (Paint){parse_color(parser), -1};
     int texture = scene_find_texture(parser->scene, parser->at->text);
     if (texture < 0)
         parse_unknown(parser, "texture");
     parser->at++;
-    return (Paint){grey(0), texture};
+    return texture;
+}
+
+Paint parse_paint(Parser *parser)
+{
+    if (parser->at->kind != TOKEN_NAME)
+        return (Paint){parse_color(parser), -1};
+    return (Paint){grey(1), parse_texture_name(parser)};
 }
 
 void parse_open(Parser *parser)

@@ -10,14 +10,15 @@ Material material_default(const char *name)
         .name = name,
         .ambient = {grey(0), -1},
         .diffuse = {grey(0.8), -1},
+        .emission = {grey(0), -1},
         .shininess = 32,
         .ior = 1.5,
+        .normal_map = -1,
+        .base_color = {grey(0.8), -1},
+        .metallic = {grey(0), -1},
+        .roughness = {grey(0.5), -1},
+        .occlusion = {grey(1), -1},
     };
-}
-
-real srgb_decode(real encoded)
-{
-    return encoded <= 0.04045L ? encoded / 12.92L : powl((encoded + 0.055L) / 1.055L, 2.4L);
 }
 
 void scene_init(Scene *scene)
@@ -32,6 +33,7 @@ void scene_init(Scene *scene)
         .max_depth = 5,
         .min_weight = 0.001,
         .shadows = true,
+        .points = 256,
         .srgb = true,
         .ambient = grey(0.1),
     };
@@ -69,11 +71,12 @@ int scene_find_object(const Scene *scene, const char *name)
     return -1;
 }
 
-static void place_shape(Scene *scene, const Shape *shape, const Transform *to_world, int material)
+static void place_shape(Scene *scene, const Shape *shape, const Transform *to_world, int material, int light)
 {
     Primitive primitive = {
         .shape = shape,
         .material = &scene->materials[material],
+        .light = light,
         .to_world = *to_world,
         .to_local = transform_inverse(to_world),
     };
@@ -121,7 +124,7 @@ static void place_mesh(Scene *scene, const Mesh *mesh, const Transform *to_world
     size_t first = scene->primitive_count;
     for (size_t i = 0; i < mesh->count; i++) {
         int own = mesh->materials[i] == MATERIAL_NONE ? fallback : mesh->materials[i];
-        place_shape(scene, &mesh->faces[i], to_world, material == MATERIAL_NONE ? own : material);
+        place_shape(scene, &mesh->faces[i], to_world, material == MATERIAL_NONE ? own : material, -1);
         if (scene->primitive_count - first == RUN || i + 1 == mesh->count) {
             place_run(scene, first);
             first = scene->primitive_count;
@@ -146,7 +149,8 @@ static void place_object(Scene *scene, const Object *object, const Transform *ou
         } else if (item->shape.kind == SHAPE_MESH) {
             place_mesh(scene, item->shape.mesh, &to_world, material, fallback);
         } else {
-            place_shape(scene, &item->shape, &to_world, material == MATERIAL_NONE ? fallback : material);
+            place_shape(scene, &item->shape, &to_world, material == MATERIAL_NONE ? fallback : material,
+                        item->light);
             place_run(scene, scene->primitive_count - 1);
         }
     }

@@ -3,6 +3,7 @@
 #ifndef ORACLE_SCENE_H
 #define ORACLE_SCENE_H
 
+#include "image.h"
 #include "store.h"
 #include "transform.h"
 
@@ -12,6 +13,7 @@ typedef enum ShapeKind {
     SHAPE_BOX,
     SHAPE_TETRAHEDRON,
     SHAPE_TRIANGLE,
+    SHAPE_PARALLELOGRAM, /* vertices: a corner and the two next to it; only area lights have it */
     SHAPE_DISK,
     SHAPE_CONE, /* and cylinder: both radii equal */
     SHAPE_TORUS,
@@ -42,16 +44,18 @@ typedef struct Mesh {
     size_t count;
 } Mesh;
 
-typedef enum TextureKind { TEXTURE_CHECKER, TEXTURE_CHECKER3D } TextureKind;
+typedef enum TextureKind { TEXTURE_CHECKER, TEXTURE_CHECKER3D, TEXTURE_IMAGE } TextureKind;
 
 typedef struct Texture {
     const char *name;
     TextureKind kind;
     Vec colors[2];
     real scale[2]; /* checker3d: the first only */
+    const Image *image;
+    bool nearest, srgb;
 } Texture;
 
-/* A color, or a texture where `texture` >= 0. */
+/* A color, times a texture where `texture` >= 0. A number is a color whose first channel counts. */
 typedef struct Paint {
     Vec color;
     int texture;
@@ -59,23 +63,45 @@ typedef struct Paint {
 
 typedef struct Material {
     const char *name;
-    bool blinn;
+    bool blinn, pbr;
     bool fresnel;
-    Paint ambient, diffuse;
-    Vec specular, reflect, transmit, emission;
+    Paint ambient, diffuse, emission;
+    Vec specular, reflect, transmit;
     real shininess, ior;
+    int normal_map; /* texture, or -1 */
+    Paint base_color, metallic, roughness, occlusion;
+    real share_transmitted; /* pbr's transmit */
 } Material;
 
-typedef enum LightKind { LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_SPOT } LightKind;
+typedef enum LightKind {
+    LIGHT_POINT,
+    LIGHT_DIRECTIONAL,
+    LIGHT_SPOT,
+    LIGHT_SPHERE,
+    LIGHT_RECTANGLE
+} LightKind;
 
 typedef struct Light {
     LightKind kind;
-    Vec position;
+    Vec position;  /* the center of a sphere, the corner of a rectangle */
     Vec direction; /* unit, of travel: directional, spot */
-    Vec intensity;
+    Vec intensity; /* the radiance of area lights */
+    real radius;
+    Vec edges[2];
     real attenuation[3];
     real cos_inner, cos_outer; /* of half the angles */
 } Light;
+
+/* An equirectangular map of radiance around the scene. */
+typedef struct Environment {
+    const Image *image; /* NULL: there is none */
+    Vec intensity;
+    real rotate; /* degrees */
+    real *rows;  /* of importance sampling: share of all rows up to each one, and of its texels in each row */
+    real *texels;
+} Environment;
+
+typedef enum Filter { FILTER_BOX, FILTER_TENT, FILTER_GAUSSIAN, FILTER_MITCHELL } Filter;
 
 enum { MATERIAL_NONE = -1, MATERIAL_DEFAULT = -2 };
 
@@ -84,6 +110,7 @@ typedef struct Item {
     bool is_instance;
     size_t object;   /* index of the instance's object */
     int material;    /* index, MATERIAL_NONE or MATERIAL_DEFAULT */
+    int light;       /* index of the area light whose surface this is, or -1 */
     Shape shape;
     Transform placed; /* to the space of the enclosing object */
 } Item;
@@ -98,6 +125,7 @@ typedef struct Object {
 typedef struct Primitive {
     const Shape *shape;
     const Material *material;
+    int light; /* index of the area light whose surface this is, or -1 */
     Transform to_world, to_local;
     bool bounded;
     Vec bound_center; /* world */
@@ -123,17 +151,23 @@ typedef struct Scene {
     Store store;
     int width, height;
     int samples;
+    Filter filter;
     Vec camera_position, camera_look_at, camera_up;
     real fov;          /* degrees */
     real orthographic; /* height in units, 0: perspective */
+    real aperture;
+    real focus_distance; /* 0: the distance to look_at */
     int max_depth;
     real min_weight;
     bool shadows;
+    real occlusion_distance; /* of ambient occlusion; 0: off */
+    int points; /* of the quadrature over an area light, a hemisphere, the environment */
     real exposure;
     ToneMap tone_map;
     real white; /* of reinhard_extended */
     bool srgb;
     Vec background, ambient;
+    Environment environment;
     Light *lights;
     size_t light_count;
     Texture *textures;
@@ -164,7 +198,5 @@ int scene_find_object(const Scene *scene, const char *name);
 
 /* A phong material with the contract's defaults. */
 Material material_default(const char *name);
-/* Linear value of an sRGB-encoded one in [0, 1]. */
-real srgb_decode(real encoded);
 
 #endif

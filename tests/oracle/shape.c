@@ -26,6 +26,7 @@ void shape_finish(Shape *shape)
                 shape->normals[i] = normalized(shape->normals[i]);
         break;
     case SHAPE_SPHERE:
+    case SHAPE_PARALLELOGRAM:
     case SHAPE_BOX:
     case SHAPE_TETRAHEDRON:
     case SHAPE_MESH:
@@ -66,6 +67,10 @@ bool shape_bound(const Shape *shape, Vec *center, real *radius)
         *center = shape->vertices[0];
         *radius = farthest_vertex(shape, *center, 3);
         return true;
+    case SHAPE_PARALLELOGRAM:
+        *center = shape->vertices[0];
+        *radius = length(sub(shape->vertices[1], *center)) + length(sub(shape->vertices[2], *center));
+        return true;
     case SHAPE_TETRAHEDRON:
         *center = shape->vertices[0];
         *radius = farthest_vertex(shape, *center, 4);
@@ -89,6 +94,8 @@ int shape_crossings(const Shape *shape, const Line *line, Crossing out[CROSSINGS
         return tetrahedron_crossings(shape, line, out);
     case SHAPE_TRIANGLE:
         return triangle_crossings(shape, line, out);
+    case SHAPE_PARALLELOGRAM:
+        return parallelogram_crossings(shape, line, out);
     case SHAPE_DISK:
         return disk_crossings(shape, line, out);
     case SHAPE_CONE:
@@ -121,6 +128,8 @@ Surface shape_surface(const Shape *shape, Vec p, int patch)
         return tetrahedron_surface(shape, p, patch);
     case SHAPE_TRIANGLE:
         return triangle_surface(shape, p);
+    case SHAPE_PARALLELOGRAM:
+        return parallelogram_surface(shape, p);
     case SHAPE_DISK:
         return disk_surface(shape, p);
     case SHAPE_CONE:

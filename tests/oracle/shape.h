@@ -24,6 +24,7 @@ typedef struct Surface {
     Vec normal;  /* geometric, outward, unit */
     Vec shading; /* interpolated where the shape has such normals, else `normal` */
     real u, v;
+    Vec du, dv; /* of the point, by u and v */
 } Surface;
 
 /* right and up of somebody who faces the surface: unit vectors for a unit normal n. */
@@ -47,6 +48,7 @@ int torus_crossings(const Shape *shape, const Line *line, Crossing *out);
 int plane_crossings(const Shape *shape, const Line *line, Crossing *out);
 int disk_crossings(const Shape *shape, const Line *line, Crossing *out);
 int triangle_crossings(const Shape *shape, const Line *line, Crossing *out);
+int parallelogram_crossings(const Shape *shape, const Line *line, Crossing *out);
 int box_crossings(const Shape *shape, const Line *line, Crossing *out);
 int tetrahedron_crossings(const Shape *shape, const Line *line, Crossing *out);
 
@@ -56,6 +58,7 @@ Surface torus_surface(const Shape *shape, Vec p);
 Surface plane_surface(const Shape *shape, Vec p);
 Surface disk_surface(const Shape *shape, Vec p);
 Surface triangle_surface(const Shape *shape, Vec p);
+Surface parallelogram_surface(const Shape *shape, Vec p);
 Surface box_surface(const Shape *shape, Vec p, int patch);
 Surface tetrahedron_surface(const Shape *shape, Vec p, int patch);
 

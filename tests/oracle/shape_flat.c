@@ -4,9 +4,9 @@
 /* Rounding of a barycentric weight in extended precision stays far below this. */
 #define EDGE_WIDTH 1e-15L
 
-static Surface flat_surface(Vec normal, real u, real v)
+static Surface flat_surface(Vec normal, real u, real v, Vec du, Vec dv)
 {
-    return (Surface){normal, normal, u, v};
+    return (Surface){normal, normal, u, v, du, dv};
 }
 
 int plane_crossings(const Shape *shape, const Line *line, Crossing *out)
@@ -21,7 +21,7 @@ int plane_crossings(const Shape *shape, const Line *line, Crossing *out)
 Surface plane_surface(const Shape *shape, Vec p)
 {
     Vec q = sub(p, shape->center);
-    return flat_surface(shape->normal, dot(q, shape->t1), dot(q, shape->t2));
+    return flat_surface(shape->normal, dot(q, shape->t1), dot(q, shape->t2), shape->t1, shape->t2);
 }
 
 int disk_crossings(const Shape *shape, const Line *line, Crossing *out)
@@ -35,8 +35,9 @@ int disk_crossings(const Shape *shape, const Line *line, Crossing *out)
 Surface disk_surface(const Shape *shape, Vec p)
 {
     Vec q = sub(p, shape->center);
-    return flat_surface(shape->normal, 0.5L + dot(q, shape->t1) / (2 * shape->radius),
-                        0.5L + dot(q, shape->t2) / (2 * shape->radius));
+    real width = 2 * shape->radius;
+    return flat_surface(shape->normal, 0.5L + dot(q, shape->t1) / width, 0.5L + dot(q, shape->t2) / width,
+                        scaled(shape->t1, width), scaled(shape->t2, width));
 }
 
 /* Weights of the second and third vertex at p in the plane of a, b, c. */
@@ -73,7 +74,9 @@ Surface triangle_surface(const Shape *shape, Vec p)
     real b, c;
     barycentric(v[0], v[1], v[2], p, &b, &c);
     real a = 1 - b - c;
-    Surface surface = flat_surface(normalized(cross(sub(v[1], v[0]), sub(v[2], v[0]))), b, c);
+    Vec e1 = sub(v[1], v[0]);
+    Vec e2 = sub(v[2], v[0]);
+    Surface surface = flat_surface(normalized(cross(e1, e2)), b, c, e1, e2);
     if (shape->has_normals) {
         const Vec *n = shape->normals;
         surface.shading = add(add(scaled(n[0], a), scaled(n[1], b)), scaled(n[2], c));
@@ -81,8 +84,42 @@ Surface triangle_surface(const Shape *shape, Vec p)
     if (shape->has_uvs) {
         surface.u = a * shape->uvs[0][0] + b * shape->uvs[1][0] + c * shape->uvs[2][0];
         surface.v = a * shape->uvs[0][1] + b * shape->uvs[1][1] + c * shape->uvs[2][1];
+        /* e1 = u1 du + v1 dv, e2 = u2 du + v2 dv, by Cramer's rule; the determinant's sign is kept. */
+        real u1 = shape->uvs[1][0] - shape->uvs[0][0];
+        real v1 = shape->uvs[1][1] - shape->uvs[0][1];
+        real u2 = shape->uvs[2][0] - shape->uvs[0][0];
+        real v2 = shape->uvs[2][1] - shape->uvs[0][1];
+        real determinant = u1 * v2 - u2 * v1;
+        if (determinant != 0) {
+            surface.du = scaled(sub(scaled(e1, v2), scaled(e2, v1)), 1 / determinant);
+            surface.dv = scaled(sub(scaled(e2, u1), scaled(e1, u2)), 1 / determinant);
+        }
     }
     return surface;
+}
+
+int parallelogram_crossings(const Shape *shape, const Line *line, Crossing *out)
+{
+    const Vec *v = shape->vertices;
+    Vec n = cross(sub(v[1], v[0]), sub(v[2], v[0]));
+    real toward = dot(line->d, n);
+    if (toward == 0)
+        return 0;
+    real t = dot(sub(v[0], line->o), n) / toward;
+    real b, c;
+    barycentric(v[0], v[1], v[2], add(line->o, scaled(line->d, t)), &b, &c);
+    out[0] = (Crossing){t, 0, false};
+    return b >= 0 && b <= 1 && c >= 0 && c <= 1 ? 1 : 0;
+}
+
+Surface parallelogram_surface(const Shape *shape, Vec p)
+{
+    const Vec *v = shape->vertices;
+    Vec e1 = sub(v[1], v[0]);
+    Vec e2 = sub(v[2], v[0]);
+    real b, c;
+    barycentric(v[0], v[1], v[2], p, &b, &c);
+    return flat_surface(normalized(cross(e1, e2)), b, c, e1, e2);
 }
 
 /* A convex solid as the part of a line inside all of its half spaces: normal.p <= offset each. */
@@ -143,7 +180,8 @@ Surface box_surface(const Shape *shape, Vec p, int patch)
     /* The tangents are along axes, so the extent along one is a component of the size. */
     real extent1 = 2 * fabsl(dot(shape->half, t1));
     real extent2 = 2 * fabsl(dot(shape->half, t2));
-    return flat_surface(n, 0.5L + dot(q, t1) / extent1, 0.5L + dot(q, t2) / extent2);
+    return flat_surface(n, 0.5L + dot(q, t1) / extent1, 0.5L + dot(q, t2) / extent2, scaled(t1, extent1),
+                        scaled(t2, extent2));
 }
 
 /* Vertices of the faces abc abd acd bcd, and the vertex opposite each. */
@@ -172,7 +210,9 @@ Surface tetrahedron_surface(const Shape *shape, Vec p, int patch)
 {
     const Vec *v = shape->vertices;
     const int *f = FACES[patch];
-    Surface surface = flat_surface(face_normal(shape, patch), 0, 0);
+    Vec e1 = sub(v[f[1]], v[f[0]]);
+    Vec e2 = sub(v[f[2]], v[f[0]]);
+    Surface surface = flat_surface(face_normal(shape, patch), 0, 0, e1, e2);
     barycentric(v[f[0]], v[f[1]], v[f[2]], p, &surface.u, &surface.v);
     return surface;
 }

@@ -45,7 +45,12 @@ Surface sphere_surface(const Shape *shape, Vec p)
 {
     Vec n = normalized(sub(p, shape->center));
     real u = n.x == 0 && n.z == 0 ? 0.5L : 0.5L + atan2l(n.x, n.z) / (2 * PI);
-    return (Surface){n, n, u < 1 ? u : 0, 1 - acosl(fminl(1, fmaxl(-1, n.y))) / PI};
+    real around = hypotl(n.x, n.z);
+    Vec du = scaled(vec(n.z, 0, -n.x), 2 * PI * shape->radius);
+    Vec dv = grey(0);
+    if (around > 0)
+        dv = scaled(vec(-n.y * n.x / around, around, -n.y * n.z / around), PI * shape->radius);
+    return (Surface){n, n, u < 1 ? u : 0, 1 - acosl(fminl(1, fmaxl(-1, n.y))) / PI, du, dv};
 }
 
 static int cap_crossing(const Shape *shape, const Line *line, int patch, Crossing *out)
@@ -106,11 +111,16 @@ Surface cone_surface(const Shape *shape, Vec p, int patch)
         real radius = patch == 1 ? shape->radius : shape->top_radius;
         Vec t1, t2;
         tangents_of(n, &t1, &t2);
-        return (Surface){n, n, 0.5L + dot(across, t1) / (2 * radius), 0.5L + dot(across, t2) / (2 * radius)};
+        return (Surface){n, n, 0.5L + dot(across, t1) / (2 * radius), 0.5L + dot(across, t2) / (2 * radius),
+                         scaled(t1, 2 * radius), scaled(t2, 2 * radius)};
     }
     real slope = (shape->top_radius - shape->radius) / shape->height;
     Vec n = shape->normal;
     if (length(across) > 0)
         n = normalized(sub(normalized(across), scaled(shape->normal, slope)));
-    return (Surface){n, n, turn(dot(across, shape->t2), dot(across, shape->t1)), height / shape->height};
+    Vec du = scaled(cross(shape->normal, across), 2 * PI);
+    Vec dv = scaled(shape->normal, shape->height);
+    if (length(across) > 0)
+        dv = add(dv, scaled(normalized(across), shape->top_radius - shape->radius));
+    return (Surface){n, n, turn(dot(across, shape->t2), dot(across, shape->t1)), height / shape->height, du, dv};
 }

@@ -153,5 +153,7 @@ Surface torus_surface(const Shape *shape, Vec p)
     real v = atan2l(height, rho - shape->radius) / (2 * PI);
     u -= floorl(u);
     v -= floorl(v);
-    return (Surface){n, n, u < 1 ? u : 0, v < 1 ? v : 0};
+    Vec du = scaled(cross(shape->normal, across), 2 * PI);
+    Vec dv = scaled(sub(scaled(shape->normal, rho - shape->radius), scaled(outward, height)), 2 * PI);
+    return (Surface){n, n, u < 1 ? u : 0, v < 1 ? v : 0, du, dv};
 }

@@ -1,7 +1,8 @@
 #include "trace.h"
 
+#include "environment.h"
+#include "gather.h"
 #include "light.h"
-#include "texture.h"
 
 Camera camera_make(const Scene *scene)
 {
@@ -10,11 +11,15 @@ Camera camera_make(const Scene *scene)
     camera.u = normalized(cross(scene->camera_up, camera.w));
     camera.v = cross(camera.w, camera.u);
     camera.orthographic = scene->orthographic > 0;
+    camera.aperture = scene->aperture;
+    camera.focus = scene->focus_distance;
+    if (camera.focus == 0)
+        camera.focus = length(sub(scene->camera_position, scene->camera_look_at));
     camera.k = camera.orthographic ? scene->orthographic / 2 : tanl(scene->fov * PI / 360);
     return camera;
 }
 
-Ray camera_ray(const Camera *camera, real px, real py)
+Ray camera_ray(const Camera *camera, real px, real py, Vec lens)
 {
     real width = camera->width;
     real height = camera->height;
@@ -23,7 +28,11 @@ Ray camera_ray(const Camera *camera, real px, real py)
     Vec offset = add(scaled(camera->u, x), scaled(camera->v, y));
     if (camera->orthographic)
         return (Ray){add(camera->position, offset), scaled(camera->w, -1), NULL, 0};
-    return (Ray){camera->position, normalized(sub(offset, camera->w)), NULL, 0};
+    if (camera->aperture == 0)
+        return (Ray){camera->position, normalized(sub(offset, camera->w)), NULL, 0};
+    Vec start = add(scaled(camera->u, lens.x * camera->aperture), scaled(camera->v, lens.y * camera->aperture));
+    Vec through = scaled(sub(offset, camera->w), camera->focus);
+    return (Ray){add(camera->position, start), normalized(sub(through, start)), NULL, 0};
 }
 
 real fresnel_reflectance(real cosine, real eta)
@@ -37,64 +46,44 @@ real fresnel_reflectance(real cosine, real eta)
     return (s * s + p * p) / 2;
 }
 
-real specular_term(bool blinn, real shininess, Vec n, Vec to_light, Vec to_eye)
+/* The direction of the transmitted ray; false on total internal reflection. */
+static bool refracted(const Spot *spot, real eta, Vec *through)
 {
-    real cosine;
-    if (blinn)
-        cosine = dot(n, normalized(add(to_light, to_eye)));
-    else
-        cosine = dot(sub(scaled(n, 2 * dot(n, to_light)), to_light), to_eye);
-    return powl(fminl(1, fmaxl(0, cosine)), shininess);
+    real cosine = -dot(spot->d, spot->mirror);
+    real k = 1 - eta * eta * (1 - cosine * cosine);
+    *through = spot->d;
+    if (k <= 0)
+        return false;
+    *through = add(scaled(spot->d, eta), scaled(spot->mirror, eta * cosine - sqrtl(k)));
+    return true;
 }
 
-/* A hit with its normals turned to the ray's origin. */
-typedef struct Spot {
-    const Scene *scene;
-    const Hit *hit;
-    const Material *material;
-    Vec d;         /* of the ray that came */
-    Vec geometric, normal;
-    Vec mirror;    /* the normal of reflection, refraction and fresnel */
-    bool entering;
-} Spot;
-
-static Vec direct_light(const Spot *spot, Vec diffuse)
+/* Weights of the rays of section 5 and the transmitted direction. */
+static void split_pbr(const Spot *spot, Vec *reflect, Vec *transmit, Vec *through)
 {
-    Vec sum = grey(0);
-    Vec to_eye = scaled(spot->d, -1);
-    for (size_t i = 0; i < spot->scene->light_count; i++) {
-        Arrival light;
-        if (!light_arrives(&spot->scene->lights[i], spot->hit->point, &light))
-            continue;
-        real cosine = dot(spot->normal, light.direction);
-        if (!(cosine > 0) || !(dot(spot->geometric, light.direction) > 0))
-            continue;
-        const Material *material = spot->material;
-        real s = specular_term(material->blinn, material->shininess, spot->normal, light.direction, to_eye);
-        Vec share = times(light.intensity, add(scaled(diffuse, cosine), scaled(material->specular, s)));
-        if (spot->scene->shadows && largest(share) > 0) {
-            Ray ray = {spot->hit->point, light.direction, spot->hit->primitive, spot->hit->patch};
-            share = times(share, hit_transmittance(spot->scene, &ray, light.distance));
-        }
-        sum = add(sum, share);
+    const Look *look = &spot->look;
+    real cosine = -dot(spot->d, spot->mirror);
+    real eta = spot->entering ? 1 / look->material->ior : look->material->ior;
+    bool total = !refracted(spot, eta, through);
+    real fd = total ? 1 : fresnel_reflectance(cosine, eta);
+    *reflect = grey(look->m * fd);
+    *transmit = scaled(look->base, look->m * (1 - fd));
+    if (look->roughness < MIRROR_ROUGHNESS) {
+        Vec rest = scaled(sub(grey(1), look->f0), powl(1 - cosine, 5));
+        *reflect = add(*reflect, scaled(add(look->f0, rest), 1 - look->m));
     }
-    return sum;
 }
 
 /* w_r and w_t of section 4 and the transmitted direction. */
-static void split(const Spot *spot, Vec *reflect, Vec *transmit, Vec *through)
+static void split_phong(const Spot *spot, Vec *reflect, Vec *transmit, Vec *through)
 {
-    const Material *material = spot->material;
+    const Material *material = spot->look.material;
     bool opaque = largest(material->transmit) == 0;
     real eta = spot->entering || opaque ? 1 / material->ior : material->ior;
     real cosine = -dot(spot->d, spot->mirror);
-    real k = 1 - eta * eta * (1 - cosine * cosine);
-    bool total = k <= 0;
+    bool total = !refracted(spot, eta, through);
     *reflect = material->reflect;
     *transmit = material->transmit;
-    *through = spot->d;
-    if (!total)
-        *through = add(scaled(spot->d, eta), scaled(spot->mirror, eta * cosine - sqrtl(k)));
     if (total) {
         *transmit = grey(0);
         if (material->fresnel)
@@ -124,21 +113,29 @@ static Vec branch(const Spot *spot, Vec direction, Vec weight, int depth, Vec th
 static Vec radiance(const Scene *scene, const Ray *ray, int depth, Vec throughput)
 {
     Hit hit;
+    const Environment *environment = &scene->environment;
     if (!hit_closest(scene, ray, &hit))
-        return scene->background;
-    Spot spot = {.scene = scene, .hit = &hit, .material = hit.primitive->material, .d = ray->d};
+        return environment->image != NULL ? environment_radiance(environment, ray->d) : scene->background;
+    if (hit.primitive->light >= 0)
+        return light_seen(&scene->lights[hit.primitive->light], ray->d, hit.normal);
+    Spot spot = {.scene = scene, .hit = &hit, .look = look_at_hit(scene, &hit), .d = ray->d};
     spot.entering = dot(ray->d, hit.normal) < 0;
     spot.geometric = spot.entering ? hit.normal : scaled(hit.normal, -1);
     spot.normal = spot.entering ? hit.shading : scaled(hit.shading, -1);
     spot.mirror = dot(spot.normal, ray->d) < 0 ? spot.normal : spot.geometric;
 
-    Vec diffuse = paint_color(scene, &spot.material->diffuse, hit.local, &hit.surface);
-    Vec ambient = paint_color(scene, &spot.material->ambient, hit.local, &hit.surface);
-    Vec sum = add(spot.material->emission, times(ambient, scene->ambient));
-    sum = add(sum, direct_light(&spot, diffuse));
+    bool pbr = spot.look.material->pbr;
+    Vec sum = add(spot.look.emission, gather_lights(&spot));
+    if (pbr && environment->image != NULL)
+        sum = add(sum, gather_environment(&spot));
+    else
+        sum = add(sum, scaled(times(spot.look.ambient, scene->ambient), gather_openness(&spot)));
 
     Vec reflect, transmit, through;
-    split(&spot, &reflect, &transmit, &through);
+    if (pbr)
+        split_pbr(&spot, &reflect, &transmit, &through);
+    else
+        split_phong(&spot, &reflect, &transmit, &through);
     Vec mirrored = sub(ray->d, scaled(spot.mirror, 2 * dot(ray->d, spot.mirror)));
     if (dot(mirrored, spot.geometric) >= 0)
         sum = add(sum, branch(&spot, mirrored, reflect, depth, throughput));

@@ -1,4 +1,4 @@
-/* Section 4: the Whitted integrator, and the ray of a pixel position. */
+/* Sections 4 and 5: the Whitted integrator, and the ray of a pixel position. */
 #ifndef ORACLE_TRACE_H
 #define ORACLE_TRACE_H
 
@@ -8,19 +8,18 @@
 typedef struct Camera {
     Vec position, u, v, w;
     real k;
+    real aperture, focus;
     bool orthographic;
     int width, height;
 } Camera;
 
 Camera camera_make(const Scene *scene);
-/* px, py in pixels from the top-left corner of the image. */
-Ray camera_ray(const Camera *camera, real px, real py);
+/* px, py in pixels from the top-left corner of the image; lens: a point of the unit disk. */
+Ray camera_ray(const Camera *camera, real px, real py, Vec lens);
 
 /* Exact unpolarised reflectance of a dielectric; `cosine` of the incoming angle >= 0, `eta` the ratio of the
  * indices before and behind. 1 on total internal reflection. */
 real fresnel_reflectance(real cosine, real eta);
-/* Specular term S of section 4 for unit vectors. */
-real specular_term(bool blinn, real shininess, Vec n, Vec to_light, Vec to_eye);
 
 /* Radiance along a camera ray. */
 Vec trace_radiance(const Scene *scene, const Ray *ray);

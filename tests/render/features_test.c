@@ -56,7 +56,12 @@ static const struct {
     {FEATURE_FRESNEL, {"fresnel_dielectric", NULL, NULL}},
     {FEATURE_BRANCHING, {"park_ray", "unpark_ray", "PENDING_COUNT"}},
     {FEATURE_ORTHOGRAPHIC, {"v3_scale(up, view_y)", NULL, NULL}},
-    {FEATURE_SAMPLES, {"sample_2d", "sum_add", NULL}},
+    {FEATURE_PBR, {"hit_pbr", NULL, NULL}},
+    {FEATURE_SAMPLES, {"sample_offset", "sum_add", NULL}},
+    {FEATURE_APERTURE, {"disk_point", "PAIR_LENS", NULL}},
+    {FEATURE_FILTER_TENT, {"left ? u", NULL, NULL}},
+    {FEATURE_FILTER_TABLE, {"centered", NULL, NULL}},
+    {FEATURE_FILTER_LOBES, {"weigh_samples", "filter_sign", NULL}},
 };
 
 #define BIT(name) ((FeatureSet)1 << FEATURE_##name)
@@ -74,7 +79,7 @@ static const struct {
     {"nodes", BIT(BVH)},           {"lights", BIT(LIGHTS)},   {"textures", BIT(CHECKER) | BIT(CHECKER3D)},
     {"frames", BIT(CHECKER3D)},    {"film_low", BIT(SAMPLES)}, {"extras", BIT(TRIANGLE_EXTRA)},
     {"blocks", BIT(MESH)},         {"mesh_runs", BIT(MESH)},  {"mesh_normals", BIT(MESH_NORMALS)},
-    {"mesh_uvs", BIT(MESH_UVS)},   {"mesh_indices", BIT(MESH_NORMALS) | BIT(MESH_UVS)},
+    {"quantiles", BIT(FILTER_TABLE)}, {"mesh_uvs", BIT(MESH_UVS)},   {"mesh_indices", BIT(MESH_NORMALS) | BIT(MESH_UVS)},
 };
 
 typedef struct Function {
@@ -117,7 +122,7 @@ static char *preprocess(FeatureSet features)
 {
     const DeviceInfo cpu = {.type = DEVICE_CPU, .float_width = 8};
     char options[4096], line[4096];
-    assert_true(render_program_options(features, &cpu, options, sizeof options) < sizeof options);
+    assert_true(render_program_options(features, &cpu, MATH_EXACT, options, sizeof options) < sizeof options);
     char *command = text_of("\"%s\" -E -P -undef -x c -D__OPENCL_C_VERSION__=120 %s \"%s\"", CLRT_CC, options,
                             "features_test.cl");
     FILE *pipe = popen(command, "r");

@@ -1,5 +1,5 @@
 // Same scene, same bytes: whatever the limit of memory, the crop, the number of threads, the shape of the
-// kernels and the run, on two scenes that together have every feature, one of them with few and with many
+// kernels and the run, on three scenes that together have every feature, one of them with few and with many
 // samples, and on one of nothing but meshes.
 #include "meshes.h"
 #include "scenes.h"
@@ -7,7 +7,7 @@
 
 #include "render/plan.h"
 
-enum { SCENES = 4, SCENE_MESHES = 3 };
+enum { SCENES = 5, SCENE_MESHES = 4 };
 
 typedef struct Fixture {
     Device *device;
@@ -52,10 +52,10 @@ static void test_every_feature(void **state)
 {
     const Fixture *f = *state;
     const FeatureSet all = feature_bit(FEATURE_COUNT) - 1;
-    const FeatureSet have = f->layouts[0]->features | f->layouts[1]->features;
+    const FeatureSet have = f->layouts[0]->features | f->layouts[1]->features | f->layouts[2]->features;
     for (Feature feature = 0; feature < FEATURE_COUNT; feature++)
         if (!features_have(have, feature))
-            fail_msg("neither scene has %s", feature_name(feature));
+            fail_msg("no scene has %s", feature_name(feature));
     assert_true(have == all);
     const FeatureSet meshes = f->layouts[SCENE_MESHES]->features;
     assert_true(features_have(meshes, FEATURE_MESH) && !features_have(meshes, FEATURE_TRIANGLE));
@@ -91,8 +91,8 @@ static u64 least_memory(const Fixture *f, int k)
         Plan plan;
         Error error;
         const Picture *picture = &f->pictures[k];
-        if (plan_make(&plan, f->layouts[k], device_info(f->device), picture->width, picture->height, middle,
-                      &error))
+        if (plan_make(&plan, f->layouts[k], device_info(f->device), MATH_EXACT, picture->width, picture->height,
+                      middle, &error))
             high = middle;
         else
             low = middle + 1;
@@ -196,8 +196,8 @@ int main(void)
     Fixture f = {.device = test_device_open(0)};
     if (!f.device)
         return TEST_SKIP;
-    const char *const marked[SCENES] = {scene_glass, scene_toys, scene_glass};
-    const u32 samples[SCENES] = {4, 1, 21, 1};
+    const char *const marked[SCENES] = {scene_glass, scene_toys, scene_studio, scene_glass};
+    const u32 samples[SCENES] = {4, 1, 2, 21, 1};
     for (int k = 0; k < SCENES; k++) {
         f.layouts[k] = marked[k] ? layout_of_marked(marked[k]) : layout_of_meshes();
         f.layouts[k]->params.samples = samples[k];

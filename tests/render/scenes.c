@@ -3,7 +3,7 @@
 #include "support.h"
 
 const char scene_glass[] =
-    "image { size 100 75 samples 4 seed 3 }\n"
+    "image { size 100 75 samples 4 seed 3 filter mitchell }\n"
     "camera { position P(0.5 2 7) look_at P(0 0.75 0) up D(0 1 0) fov 45 }\n"
     "render { max_depth 6 min_weight 0.01 }\n"
     "ambient 0.125\n"
@@ -67,6 +67,21 @@ const char scene_toys[] =
     "    translate P(-2 0.25 1.25) material mirror }\n"
     "mesh { file \"vase.obj\" scale ~1.25 rotate A(0 1 0) 25 translate P(1.25 0 1.25) material wool }\n"
     "mesh { file \"gem.obj\" scale ~0.625 translate P(-0.75 0.625 2.25) material mirror }\n";
+
+const char scene_studio[] =
+    "image { size 80 60 samples 2 filter tent }\n"
+    "camera { position P(1 2 6) look_at P(0 0.5 0) up D(0 1 0) fov 40 aperture ~0.125 }\n"
+    "render { max_depth 4 }\n"
+    "ambient 0.125\n"
+    "light point { position P(-3 5 4) intensity 2 }\n"
+    "material stone pbr { base_color 0.5 0.375 0.25 roughness 0.75 occlusion 0.5 }\n"
+    "material gold pbr { base_color 0.875 0.625 0.25 metallic 1 roughness 0.25 }\n"
+    "material chrome pbr { base_color 0.75 metallic 1 roughness 0 }\n"
+    "material resin pbr { base_color 0.5 0.75 0.625 roughness 0.125 transmit 0.75 }\n"
+    "plane { point P(0 0 0) normal D(0 1 0) material stone }\n"
+    "sphere { center P(-1.5 0.75 0) radius ~0.75 material gold }\n"
+    "sphere { center P(0 0.5 1.5) radius ~0.5 material resin }\n"
+    "box { center P(1.25 0.5 -0.5) size ~1 ~1 ~1 material chrome }\n";
 
 // A marked triple at *text, behind its letter and parenthesis; moves *text behind it.
 static Vec3 read_triple(const char **text)

@@ -1,4 +1,4 @@
-// Two scenes that together use every feature, written so that they can be moved, scaled and mirrored.
+// Three scenes that together use every feature, written so that they can be moved, scaled and mirrored.
 #ifndef CLRT_TESTS_RENDER_SCENES_H
 #define CLRT_TESTS_RENDER_SCENES_H
 
@@ -22,5 +22,7 @@ char *scene_under(const char *marked, const SceneMap *map);
 extern const char scene_glass[];
 // Orthographic, one sample a pixel.
 extern const char scene_toys[];
+// A lens, pbr materials.
+extern const char scene_studio[];
 
 #endif

@@ -71,7 +71,8 @@ Picture render_layout(Device *device, const Layout *layout, const RenderHow *how
     Picture picture = {.width = crop ? how->width : layout->params.width,
                        .height = crop ? how->height : layout->params.height};
     const RenderJob job = {.layout = layout, .device = device, .left = how->left, .top = how->top,
-                           .width = picture.width, .height = picture.height, .memory_limit = how->memory};
+                           .width = picture.width, .height = picture.height, .memory_limit = how->memory,
+                           .math = how->math};
     Error error = {0};
     picture.rgb = calloc((size_t)picture.width * picture.height * 3, sizeof(f32));
     assert_non_null(picture.rgb);

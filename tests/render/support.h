@@ -33,6 +33,7 @@ typedef struct RenderHow {
     const char *shape; // CLRT_SHAPE
     u64 memory;        // bytes
     u32 left, top, width, height; // crop; width 0: the whole image
+    MathMode math;
 } RenderHow;
 
 typedef struct Picture {

@@ -35,7 +35,7 @@ static bool compile(Tracer *tracer, Error *error)
 {
     char options[2048];
     const size_t length = render_program_options(tracer->layout->features, device_info(tracer->device),
-                                                 options, sizeof options);
+                                                 MATH_EXACT, options, sizeof options);
     const char *counting = tracer->count_visits ? " -DCOUNT_VISITS=1" : "";
     if (length + strlen(counting) >= sizeof options)
         return error_set(error, ERROR_DEVICE, "the options of the program are too long");
@@ -140,7 +140,7 @@ Tracer *tracer_create(Device *device, const Layout *layout, bool count_visits, E
     tracer->device = device;
     tracer->layout = layout;
     tracer->count_visits = count_visits;
-    tracer->shape = plan_device_shape(device_info(device));
+    tracer->shape = plan_device_shape(device_info(device), MATH_EXACT);
     if (compile(tracer, error) && add_scene(tracer, error) && number_primitives(tracer, error))
         return tracer;
     tracer_destroy(tracer);

@@ -1,6 +1,7 @@
 #!/bin/sh
 # kernels.sh BUNDLE SOURCE_DIR: compiles the flattened kernels with clang, warnings as errors, with all
 # features off, all on, and each alone, as a CPU and as a GPU take them; those of the self-test with all on.
+# Double and fast arithmetic with all off and all on.
 # BUNDLE is the clrt-bundle program.
 # Exit status: 0 clean, 1 complaints, 77 skipped because something is missing.
 set -u
@@ -43,10 +44,14 @@ check='program=${3%% *}; options=${3#* }
     "$1" -x cl -cl-std=CL1.2 -fsyntax-only -Xclang -finclude-default-header -Wall -Wextra -Wundef -Werror \
     -Wno-unused-function -Wno-unused-parameter $options "$2/$program" 2>"$2/$$.log" ||
     { echo "$program with $options"; cat "$2/$$.log"; exit 1; }'
-for machine in "-DLANES=8 -DBATCH=32 -DGROUP=1" "-DLANES=1 -DBATCH=1 -DGROUP=64"; do
+exact="-DMATH_FAST=0 -DMATH_DOUBLE=0"
+for machine in "-DLANES=8 -DBATCH=32 -DGROUP=1 $exact" "-DLANES=1 -DBATCH=1 -DGROUP=64 $exact" \
+    "-DLANES=8 -DBATCH=32 -DGROUP=1 -DMATH_FAST=1 -DMATH_DOUBLE=0" \
+    "-DLANES=1 -DBATCH=1 -DGROUP=64 -DMATH_FAST=0 -DMATH_DOUBLE=1"; do
     echo "program.cl $machine$(definitions)"
     echo "program.cl $machine$(definitions $features)"
     echo "self_test.cl $machine$(definitions $features)"
+    case $machine in *"$exact") ;; *) continue ;; esac
     for feature in $features; do
         echo "program.cl $machine$(definitions "$feature")"
     done

@@ -35,7 +35,7 @@ check_order() {
 }
 
 # kernels/shared is common to host and device, bundle is the text of the kernels.
-check_order host "shared bundle" base image scene assets accel layout device render output selftest cli
+check_order host "shared bundle" base image scene assets accel layout device render budget output selftest cli
 for found in $(includes kernels/shared); do
     [ "${found##*:}" = shared ] || complain "${found%:*}: kernels/shared must not include ${found##*:}/"
 done
@@ -43,7 +43,7 @@ check_order kernels "shared" base shapes accel texture material light stages sel
 
 for folder in host/*/ kernels/*/; do
     case " host/base/ host/image/ host/scene/ host/assets/ host/accel/ host/layout/ host/device/ \
-host/render/ host/output/ host/selftest/ host/cli/ kernels/shared/ kernels/base/ kernels/shapes/ \
+host/render/ host/budget/ host/output/ host/selftest/ host/cli/ kernels/shared/ kernels/base/ kernels/shapes/ \
 kernels/accel/ kernels/texture/ kernels/material/ kernels/light/ kernels/stages/ \
 kernels/selftest/ " in
         *" $folder "*) ;;

@@ -1,0 +1,203 @@
+#include "budget/bounds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// For what rounding adds to radiance on a device.
+#define MARGIN (1 + 1e-5)
+
+// What a used material adds at a hit, and passes on, in one channel.
+typedef struct Weights {
+    f64 direct;           // emission, ambient and all lights together
+    f64 reflect, transmit;
+    f64 total;            // of the rays that follow a hit
+} Weights;
+
+static f64 channel(Vec3 v, u32 c)
+{
+    return c == 0 ? v.x : c == 1 ? v.y : v.z;
+}
+
+static bool black(Vec3 v)
+{
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+// Why the brightness of this scene is not bounded by rules known here; NULL where it is.
+static const char *unknown_setting(const Scene *scene)
+{
+    if (scene->render.integrator != INTEGRATOR_WHITTED)
+        return "paths of any weight";
+    if (scene->environment.present)
+        return "an environment map";
+    if (scene->image.samples > 1 && scene->image.filter == FILTER_MITCHELL)
+        return "a filter with negative weights";
+    for (u32 i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        if (light->kind != LIGHT_POINT && light->kind != LIGHT_DIRECTIONAL && light->kind != LIGHT_SPOT)
+            return "area lights";
+        if (light->kind != LIGHT_DIRECTIONAL && light->attenuation[0] <= 0)
+            return "a light without limit near its position (KC 0)";
+    }
+    return NULL;
+}
+
+// One byte a material: whether a ray can meet it. NULL without memory: then all count.
+static bool *used_materials(const Scene *scene, const Layout *layout)
+{
+    bool *used = calloc(scene->material_count ? scene->material_count : 1, sizeof *used);
+    if (!used)
+        return NULL;
+    for (u32 i = 0; i < layout->primitive_count + layout->mesh_run_count; i++) {
+        const u32 named = i < layout->primitive_count ? layout->infos[i].material
+                                                      : layout->mesh_runs[i - layout->primitive_count].material;
+        const u32 index = named & ~MATERIAL_INHERITED;
+        if (named != NO_INDEX && index < scene->material_count)
+            used[index] = true;
+    }
+    return used;
+}
+
+// Images of levels are at most 1, decoded and filtered too; those of floats may hold anything.
+static f64 greatest_texel(const Texture *texture, u32 c)
+{
+    if (texture->kind == TEXTURE_CHECKER || texture->kind == TEXTURE_CHECKER3D)
+        return fmax(channel(texture->colors[0], c), channel(texture->colors[1], c));
+    const Bitmap *bitmap = texture->kind == TEXTURE_IMAGE ? texture->bitmap : NULL;
+    return bitmap && (bitmap->type == BITMAP_U8 || bitmap->type == BITMAP_U16) ? 1 : INFINITY;
+}
+
+// A texture stands for the color, or scales it.
+static f64 greatest_input(const Scene *scene, const ColorInput *input, u32 c)
+{
+    const f64 color = channel(input->color, c);
+    return input->texture < 0 ? color : greatest_texel(&scene->textures[input->texture], c) * fmax(color, 1);
+}
+
+// Product in which 0 wins over infinity: what is not there adds nothing.
+static f64 times(f64 a, f64 b)
+{
+    return a == 0 || b == 0 ? 0 : a * b;
+}
+
+static f64 greatest_irradiance(const Scene *scene, u32 c)
+{
+    f64 sum = 0;
+    for (u32 i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        const f64 nearest = light->kind == LIGHT_DIRECTIONAL ? 1 : light->attenuation[0];
+        sum += channel(light->intensity, c) / nearest;
+    }
+    return sum;
+}
+
+static Weights weights_of(const Scene *scene, const Material *material, f64 irradiance, u32 c)
+{
+    const f64 lit = greatest_input(scene, &material->diffuse, c) + channel(material->specular, c);
+    const f64 ambient = times(greatest_input(scene, &material->ambient, c), channel(scene->ambient, c));
+    Weights w = {.reflect = channel(material->reflect, c), .transmit = channel(material->transmit, c)};
+    w.direct = greatest_input(scene, &material->emission, c) + ambient + times(lit, irradiance);
+    w.total = material->fresnel ? fmax(w.reflect, w.transmit) : w.reflect + w.transmit;
+    return w;
+}
+
+// The numbers of one channel, over all used materials.
+typedef struct Channel {
+    f64 radiance;    // L(max_depth)
+    f64 before;      // L(max_depth - 1), of rays that follow one; 0 where there are none
+    f64 limit;       // L(infinity)
+    f64 weight;      // greatest total
+    f64 least;       // smallest weight of a ray in this channel, of those that are traced in any
+} Channel;
+
+static bool is_phong(const Material *material)
+{
+    return material->kind == MATERIAL_PHONG || material->kind == MATERIAL_BLINN_PHONG;
+}
+
+// Light may pass surfaces that make it stronger: its irradiance then has no bound.
+static f64 irradiance_of(const Scene *scene, const bool *used, u32 c)
+{
+    for (u32 i = 0; scene->render.shadows && i < scene->material_count; i++)
+        if ((!used || used[i]) && channel(scene->materials[i].transmit, c) > 1 && scene->light_count > 0)
+            return INFINITY;
+    return greatest_irradiance(scene, c);
+}
+
+// L(depth), or its limit; limit: where no material passes on all, each meets its own at direct / (1 - total).
+static Channel bound_channel(const Scene *scene, const bool *used, u32 c)
+{
+    const f64 background = channel(scene->background, c), irradiance = irradiance_of(scene, used, c);
+    Channel bound = {.radiance = background, .limit = background, .least = INFINITY};
+    for (u32 depth = 0; depth <= scene->render.max_depth; depth++) {
+        const f64 before = depth ? bound.radiance : 0;
+        f64 most = background;
+        for (u32 i = 0; i < scene->material_count; i++) {
+            const Material *material = &scene->materials[i];
+            if (used && !used[i])
+                continue;
+            const Weights w = weights_of(scene, material, irradiance, c);
+            const f64 direct = is_phong(material) ? w.direct : INFINITY;
+            most = fmax(most, direct + times(w.total, before));
+            bound.limit = fmax(bound.limit, w.total < 1 ? direct / (1 - w.total) : INFINITY);
+            bound.weight = fmax(bound.weight, is_phong(material) ? w.total : INFINITY);
+            if (!black(material->reflect))
+                bound.least = fmin(bound.least, material->fresnel ? 0 : w.reflect);
+            if (!black(material->transmit))
+                bound.least = fmin(bound.least, material->fresnel ? 0 : w.transmit);
+        }
+        bound.before = before;
+        bound.radiance = most;
+    }
+    return bound;
+}
+
+static bool branches(const Scene *scene, const bool *used)
+{
+    for (u32 i = 0; i < scene->material_count; i++)
+        if ((!used || used[i]) && !black(scene->materials[i].reflect) && !black(scene->materials[i].transmit))
+            return true;
+    return false;
+}
+
+static f64 depth_bound(const Channel *bound, u32 max_depth)
+{
+    if (bound->weight == 0)
+        return 0;
+    return bound->weight < 1 ? pow(bound->weight, max_depth + 1.0) * bound->limit : INFINITY;
+}
+
+// Each ray that is cut off had a weight below min_weight; on one way there is one, in a tree of depth D at most
+// 2^D; and all of them together weigh no more than what was passed on.
+static f64 weight_bound(const Channel *bound, const RenderSettings *render, bool branching)
+{
+    const f64 depth = render->max_depth;
+    const f64 rays = branching ? exp2(depth) : 1;
+    const f64 passed = fmax(bound->weight, pow(bound->weight, depth));
+    return times(fmin(rays * render->min_weight, passed), bound->before);
+}
+
+SceneBounds scene_bounds(const Scene *scene, const Layout *layout)
+{
+    SceneBounds bounds = {.unbounded = unknown_setting(scene)};
+    bool *used = used_materials(scene, layout);
+    const RenderSettings *render = &scene->render;
+    const bool branching = branches(scene, used);
+    bool cut = render->max_depth > 0 && render->min_weight > 0;
+    for (u32 c = 0; c < 3; c++) {
+        Channel bound = bound_channel(scene, used, c);
+        cut = cut && !(pow(bound.least, render->max_depth) >= render->min_weight * MARGIN);
+        if (bounds.unbounded)
+            bound.radiance = bound.limit = bound.before = INFINITY;
+        bounds.radiance[c] = bound.radiance * MARGIN;
+        bounds.depth = fmax(bounds.depth, depth_bound(&bound, render->max_depth));
+        bounds.min_weight = fmax(bounds.min_weight, weight_bound(&bound, render, branching));
+        if (!bounds.unbounded && !isfinite(bound.radiance))
+            bounds.unbounded = "materials that are not bounded";
+    }
+    if (!cut)
+        bounds.min_weight = 0;
+    free(used);
+    return bounds;
+}

@@ -1,0 +1,135 @@
+// Bounds of scenes against closed forms.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/arena.h"
+#include "budget/budget.h"
+#include "scene/parse.h"
+
+static ErrorBudget budget_of(const char *text)
+{
+    Arena *arena = arena_create();
+    Diagnostics *diagnostics = diagnostics_create();
+    Error error = {0};
+    Scene *scene = scene_parse_text("scene", text, strlen(text), arena, diagnostics, &error);
+    if (!scene || diagnostics_error_count(diagnostics)) {
+        diagnostics_print(diagnostics, stdout);
+        fail_msg("the scene of the test has errors");
+    }
+    Layout *layout = layout_create(scene, &error);
+    assert_non_null(layout);
+    const BudgetPool pool = {.pixels = 1};
+    const SceneBounds bounds = scene_bounds(scene, layout);
+    const ErrorBudget budget = budget_make(scene, &bounds, &pool, 8, NAN);
+    layout_destroy(layout);
+    diagnostics_destroy(diagnostics);
+    arena_destroy(arena);
+    return budget;
+}
+
+static void is_about(f64 value, f64 expected)
+{
+    if (!(fabs(value - expected) <= 2e-5 * fabs(expected)))
+        fail_msg("%.9g, not %.9g", value, expected);
+}
+
+#define DARK "background 0 ambient 0 "
+
+// Two parallel mirrors that shine: the sum of k^i up to D, of (1 - k^(D + 1)) / (1 - k); what is missing is all
+// of the bound.
+static void parallel_mirrors(void **state)
+{
+    (void)state;
+    for (u32 depth = 0; depth <= 64; depth += 8) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 DARK "render { max_depth %u min_weight 0 } material m phong { diffuse 0 reflect 0.9 emission 1 } "
+                      "plane { point 0 1 0 normal 0 -1 0 material m } plane { point 0 -1 0 normal 0 1 0 material m }",
+                 depth);
+        const ErrorBudget budget = budget_of(text);
+        is_about(budget.bounds.radiance[1], (1 - pow(0.9, depth + 1)) / 0.1);
+        is_about(budget.bounds.depth, pow(0.9, depth + 1) / 0.1);
+        assert_true(budget.bounds.min_weight == 0);
+        is_about(budget.total, pow(0.9, depth + 1) / 0.1);
+    }
+}
+
+// A ray of weight 0.9^7 = 0.478 is traced, the next, of 0.43, is not: no weight is below 0.45 up to depth 7.
+static void cut_off(void **state)
+{
+    (void)state;
+#define MIRROR(depth) \
+    DARK "render { max_depth " depth " min_weight 0.45 } material m phong { diffuse 0 reflect 0.9 emission 1 } " \
+         "sphere { center 0 0 -9 radius 1 material m }"
+    assert_true(budget_of(MIRROR("7")).bounds.min_weight == 0);
+    is_about(budget_of(MIRROR("8")).bounds.min_weight, 0.45 * (1 - pow(0.9, 8)) / 0.1);
+    // A tree: each of the 2^2 ends may lack 0.01, and bring what one hit brings before it.
+    is_about(budget_of(DARK "render { max_depth 2 min_weight 0.01 } material m phong { diffuse 0 reflect 0.2 "
+                            "transmit 0.05 emission 1 } sphere { center 0 0 -9 radius 1 material m }")
+                 .bounds.min_weight,
+             4 * 0.01 * 1.25);
+}
+
+static void nothing_follows(void **state)
+{
+    (void)state;
+    const ErrorBudget budget = budget_of(
+        "background 0.25 ambient 0.5 light directional { direction 0 -1 0 intensity 2 } "
+        "light point { position 0 9 0 intensity 3 attenuation 2 0 1 } "
+        "material unused phong { reflect 1 emission 77 } "
+        "material m phong { ambient 0.1 diffuse 0.6 specular 0.4 } sphere { center 0 0 -9 radius 1 material m }");
+    assert_true(budget.bounds.depth == 0 && budget.bounds.min_weight == 0 && !budget.bounds.unbounded);
+    is_about(budget.bounds.radiance[0], 0.05 + 1.0 * (2 + 1.5));
+    assert_string_equal(budget.estimator, "pixel centres");
+    assert_null(budget_assumption(&budget));
+    assert_true(isnan(budget.sampling.rmse) && isnan(budget.arithmetic) && budget.total == 0);
+    is_about(budget.quantisation, 0.5 / 255);
+}
+
+static void textures_and_channels(void **state)
+{
+    (void)state;
+    const ErrorBudget budget = budget_of(
+        DARK "light directional { direction 0 -1 0 intensity 1 2 0 } "
+             "texture t checker { colors 0.1 0.2 0.3  0.4 0.1 0.9 } material m phong { diffuse t } "
+             "plane { point 0 0 0 normal 0 1 0 material m }");
+    is_about(budget.bounds.radiance[0], 0.4);
+    is_about(budget.bounds.radiance[1], 0.4);
+    assert_true(budget.bounds.radiance[2] == 0);
+}
+
+static void without_bound(void **state)
+{
+    (void)state;
+    // Glass: the weights of what follows add up to 1, so depth has no bound; radiance has one.
+    const ErrorBudget glass = budget_of(
+        "background 1 material g phong { diffuse 0 transmit 1 reflect 1 fresnel on } "
+        "sphere { center 0 0 -9 radius 1 material g }");
+    assert_true(isinf(glass.bounds.depth) && isfinite(glass.bounds.radiance[0]) && isinf(glass.total));
+    assert_true(isfinite(glass.bounds.min_weight) && glass.bounds.min_weight > 0);
+    const ErrorBudget near = budget_of(
+        "image { samples 4 } light point { position 0 9 0 attenuation 0 0 1 } sphere { center 0 0 -9 radius 1 }");
+    assert_non_null(near.bounds.unbounded);
+    assert_string_equal(budget_assumption(&near), "normal");
+    // Shadow rays grow brighter through it.
+    const ErrorBudget bright = budget_of(
+        "light directional { direction 0 -1 0 } material g phong { transmit 1.5 } "
+        "sphere { center 0 0 -9 radius 1 material g }");
+    assert_non_null(bright.bounds.unbounded);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parallel_mirrors), cmocka_unit_test(cut_off),
+        cmocka_unit_test(nothing_follows),  cmocka_unit_test(textures_and_channels),
+        cmocka_unit_test(without_bound),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

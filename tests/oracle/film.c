@@ -1,0 +1,69 @@
+#include "film.h"
+
+#include "quadrature.h"
+
+real filter_radius(Filter filter)
+{
+    static const real RADII[] = {0.5L, 1, 1.5L, 2};
+    return RADII[filter];
+}
+
+/* Mitchell and Netravali 1988 with B = C = 1/3; x >= 0. */
+static real mitchell(real x)
+{
+    const real b = 1.0L / 3;
+    const real c = 1.0L / 3;
+    if (x < 1)
+        return ((12 - 9 * b - 6 * c) * x * x * x + (-18 + 12 * b + 6 * c) * x * x + (6 - 2 * b)) / 6;
+    return ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x + (8 * b + 24 * c)) / 6;
+}
+
+real filter_value(Filter filter, real x)
+{
+    x = fabsl(x);
+    if (x > filter_radius(filter))
+        return 0;
+    switch (filter) {
+    case FILTER_BOX:
+        return 1;
+    case FILTER_TENT:
+        return 1 - x;
+    case FILTER_GAUSSIAN:
+        return expl(-2 * x * x) - expl(-2 * 1.5L * 1.5L);
+    case FILTER_MITCHELL:
+        return mitchell(x);
+    }
+    return 0;
+}
+
+/* Through one position of the image, by all of the lens. */
+static Vec position_value(const Scene *scene, const Camera *camera, real px, real py)
+{
+    int count = camera->aperture > 0 ? scene->points : 1;
+    Lattice lattice = lattice_at(count, vec(px, py, 0), 0);
+    Vec sum = grey(0);
+    for (int i = 0; i < count; i++) {
+        Ray ray = camera_ray(camera, px, py, disk_point(lattice_point(&lattice, i)));
+        sum = add(sum, trace_radiance(scene, &ray));
+    }
+    return scaled(sum, 1 / (real)count);
+}
+
+Vec film_pixel(const Scene *scene, const Camera *camera, int grid, int x, int y, real dx, real dy)
+{
+    Vec sum = grey(0);
+    real weights = 0;
+    /* The positions' own offsets: the one of a single position is 0 for every filter. */
+    real step = 2 * filter_radius(scene->filter) / grid;
+    for (int j = 0; j < grid; j++) {
+        for (int i = 0; i < grid; i++) {
+            real fx = (i + 0.5L - grid / 2.0L) * step;
+            real fy = (j + 0.5L - grid / 2.0L) * step;
+            real weight = filter_value(scene->filter, fx) * filter_value(scene->filter, fy);
+            Vec value = position_value(scene, camera, x + 0.5L + fx + dx, y + 0.5L + fy + dy);
+            sum = add(sum, scaled(value, weight));
+            weights += weight;
+        }
+    }
+    return scaled(sum, 1 / weights);
+}

@@ -1,0 +1,24 @@
+/* The light that falls on a hit: from lights, from the environment, and the unoccluded share of the ambient. */
+#ifndef ORACLE_GATHER_H
+#define ORACLE_GATHER_H
+
+#include "look.h"
+
+/* A hit with its normals turned to the ray's origin. */
+typedef struct Spot {
+    const Scene *scene;
+    const Hit *hit;
+    Look look;
+    Vec d;         /* of the ray that came */
+    Vec geometric, normal;
+    Vec mirror;    /* the normal of reflection, refraction and fresnel */
+    bool entering;
+} Spot;
+
+Vec gather_lights(const Spot *spot);
+/* Only pbr takes it. */
+Vec gather_environment(const Spot *spot);
+/* AO of section 4, 1 where the scene does not ask for it. */
+real gather_openness(const Spot *spot);
+
+#endif

@@ -1,0 +1,380 @@
+#include "plots.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "doc.h"
+#include "folder.h"
+#include "plot.h"
+
+enum { POINTS_MAX = 1024 };
+
+// ---- error against time ---------------------------------------------------------------------
+
+static bool is_of(const json_t *row, const char *scene)
+{
+    const char *name = doc_text(row, "run.scene");
+    return name && strcmp(name, scene) == 0;
+}
+
+static bool has_error(const json_t *row)
+{
+    size_t i;
+    json_t *point;
+    json_array_foreach(json_object_get(row, "convergence"), i, point)
+        if (doc_number(point, "rmse") > 0)
+            return true;
+    return false;
+}
+
+// A block of lines a mode: wall and kernel seconds, RMSE and its interval, samples.
+static void put_convergence(FILE *data, const json_t *row)
+{
+    size_t i;
+    json_t *point;
+    json_array_foreach(json_object_get(row, "convergence"), i, point) {
+        const f64 rmse = doc_number(point, "rmse");
+        f64 low = doc_number(point, "rmse_low"), high = doc_number(point, "rmse_high");
+        if (!(rmse > 0))
+            continue;
+        low = low > 0 ? low : rmse; // a logarithmic axis has no place for 0
+        high = high > 0 ? high : rmse;
+        fprintf(data, "%.9g %.9g %.9g %.9g %.9g %.0f\n", doc_number(point, "wall_s.median"),
+                doc_number(point, "kernel_s.median"), rmse, low, high, doc_number(point, "spp"));
+    }
+    fputs("\n\n", data);
+}
+
+// A panel with all modes against the seconds of a column, and a line of slope -1/2 through the first point.
+static void put_panel(FILE *script, const json_t *rows, const char *scene, int column, const char *what)
+{
+    fprintf(script,
+            "set title '%s'\nset xlabel 'seconds (median)'\nset ylabel 'RMSE of radiance'\n"
+            "stats data using (log($%d)):(log($3)) index 0 nooutput name 'A'\n"
+            "half(x) = exp(A_max_y) * (x / exp(A_min_x))**-0.5\nplot half(x) lc rgb '#999999' lw 1.5 dt 2 title "
+            "'slope -1/2'",
+            what, column);
+    size_t i;
+    int index = 0;
+    json_t *row;
+    json_array_foreach(rows, i, row)
+        if (is_of(row, scene) && has_error(row)) {
+            fprintf(script, ", data index %d using %d:3:4:5 with yerrorlines lt %d title '%s'", index, column,
+                    index + 1, doc_text(row, "run.mode"));
+            index++;
+        }
+    fputs("\n", script);
+}
+
+static bool draw_convergence(const Session *session, json_t *report, const char *scene, Error *error)
+{
+    const json_t *rows = json_object_get(report, "rows");
+    const char *name = text_format(session->arena, "%s_convergence", scene);
+    Plot plot;
+    if (!name)
+        return error_set(error, ERROR_MEMORY, "no memory for a name");
+    if (!plot_open(&plot, session, name, 1040, 440, error))
+        return false;
+    fputs("# wall_s kernel_s rmse rmse_low rmse_high spp\n", plot.data);
+    size_t i;
+    json_t *row;
+    json_array_foreach(rows, i, row)
+        if (is_of(row, scene) && has_error(row))
+            put_convergence(plot.data, row);
+    fputs("set multiplot layout 1,2\nset logscale xy\nset format y '10^{%T}'\nset format xy '%g'\n"
+          "set offsets graph 0.05, graph 0.05, 0, 0\n",
+          plot.script);
+    put_panel(plot.script, rows, scene, 1, "whole run, from the start of the process to its end");
+    put_panel(plot.script, rows, scene, 2, "kernels alone");
+    fputs("unset multiplot\n", plot.script);
+    return plot_close(&plot, json_object_get(report, "plots"), scene, "convergence", error);
+}
+
+// ---- Pareto ---------------------------------------------------------------------------------
+
+typedef struct Point {
+    f64 seconds, rmse;
+} Point;
+
+static int compare_points(const void *a, const void *b)
+{
+    const Point *p = a, *q = b;
+    return p->seconds != q->seconds ? (p->seconds > q->seconds) - (p->seconds < q->seconds)
+                                    : (p->rmse > q->rmse) - (p->rmse < q->rmse);
+}
+
+// The points that no other one beats in both, as steps.
+static void put_front(FILE *data, Point *points, size_t count)
+{
+    qsort(points, count, sizeof *points, compare_points);
+    f64 best = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        if (points[i].rmse >= best)
+            continue;
+        best = points[i].rmse;
+        fprintf(data, "%.9g %.9g\n", points[i].seconds, points[i].rmse);
+    }
+    fputs("\n\n", data);
+}
+
+// A block a mode, one of the peers if there are any, and at last the front; the number of blocks of modes.
+static int put_pareto(FILE *data, const json_t *report, const char *scene, bool peers)
+{
+    Point points[POINTS_MAX];
+    size_t count = 0, i, k;
+    int blocks = 0;
+    json_t *row, *point;
+    json_array_foreach(json_object_get(report, "rows"), i, row) {
+        if (!is_of(row, scene) || !has_error(row))
+            continue;
+        json_array_foreach(json_object_get(row, "convergence"), k, point) {
+            const Point at = {doc_number(point, "wall_s.median"), doc_number(point, "rmse")};
+            if (!(at.rmse > 0) || !(at.seconds > 0) || count == POINTS_MAX)
+                continue;
+            points[count++] = at;
+            fprintf(data, "%.9g %.9g \"%.0f\"\n", at.seconds, at.rmse, doc_number(point, "spp"));
+        }
+        fputs("\n\n", data);
+        blocks++;
+    }
+    json_array_foreach(json_object_get(report, "peers"), i, point) {
+        const Point at = {doc_number(point, "seconds"), doc_number(point, "rmse")};
+        fprintf(data, "%.9g %.9g ", at.seconds, at.rmse);
+        plot_put_name(data, doc_text(point, "name"));
+        fputc('\n', data);
+        if (count < POINTS_MAX)
+            points[count++] = at;
+    }
+    fputs(peers ? "\n\n" : "", data);
+    put_front(data, points, count);
+    return blocks;
+}
+
+static bool draw_pareto(const Session *session, json_t *report, const char *scene, Error *error)
+{
+    const bool peers = json_array_size(json_object_get(report, "peers")) > 0;
+    const char *name = text_format(session->arena, "%s_pareto", scene);
+    Plot plot;
+    if (!name)
+        return error_set(error, ERROR_MEMORY, "no memory for a name");
+    if (!plot_open(&plot, session, name, 860, 460, error))
+        return false;
+    fputs("# seconds rmse samples; the last block is the front\n", plot.data);
+    const int blocks = put_pareto(plot.data, report, scene, peers);
+    fprintf(plot.script,
+            "set logscale xy\nset format xy '%%g'\nset xlabel 'seconds of the whole run (median)'\n"
+            "set ylabel 'RMSE of radiance'\nset offsets graph 0.05, graph 0.1, graph 0.05, graph 0.05\n"
+            "plot data index %d using 1:2 with steps lc rgb '#999999' lw 2 title 'front: nothing beats it in both'",
+            blocks + peers);
+    size_t i;
+    int index = 0;
+    json_t *row;
+    json_array_foreach(json_object_get(report, "rows"), i, row)
+        if (is_of(row, scene) && has_error(row)) {
+            fprintf(plot.script,
+                    ", data index %d using 1:2 with points lt %d ps 1.2 title '%s'"
+                    ", data index %d using 1:2:3 with labels left offset 0.9,0.3 tc lt %d font ',10' notitle",
+                    index, index + 1, doc_text(row, "run.mode"), index, index + 1);
+            index++;
+        }
+    if (peers)
+        fprintf(plot.script,
+                ", data index %d using 1:2 with points lc rgb 'black' pt 2 ps 1.2 title 'other renderers'"
+                ", data index %d using 1:2:3 with labels left offset 0.9,0.3 font ',11' notitle",
+                blocks, blocks);
+    fputs("\n", plot.script);
+    return plot_close(&plot, json_object_get(report, "plots"), scene, "pareto", error);
+}
+
+// ---- stages ---------------------------------------------------------------------------------
+
+typedef struct Bar {
+    const char *title;
+    const char *keys[3]; // summed
+} Bar;
+
+static const Bar BARS[] = {
+    {"start, file, end", {"other_s", "encode_s", NULL}},
+    {"choose and open the device", {"device_s", NULL, NULL}},
+    {"read scene and meshes", {"parse_s", "load_s", NULL}},
+    {"layout, hierarchy", {"bvh_s", "layout_s", "upload_s"}},
+    {"compile or load kernels", {"compile_s", NULL, NULL}},
+    {"kernels", {"kernel_s", "download_s", NULL}},
+};
+enum { BAR_COUNT = sizeof BARS / sizeof BARS[0] };
+
+static void put_stages(FILE *data, const json_t *row, const char *heat)
+{
+    plot_put_name(data, doc_text(row, "run.mode"));
+    for (size_t b = 0; b < BAR_COUNT; b++) {
+        f64 sum = 0;
+        for (size_t k = 0; k < 3 && BARS[b].keys[k]; k++) {
+            char path[64];
+            snprintf(path, sizeof path, "time.%s.%s.median", heat, BARS[b].keys[k]);
+            const f64 seconds = doc_number(row, path);
+            sum += seconds > 0 ? seconds : 0;
+        }
+        fprintf(data, " %.6g", sum);
+    }
+    fputc('\n', data);
+}
+
+static bool draw_stages(const Session *session, json_t *report, const char *scene, Error *error)
+{
+    static const char *const HEATS[] = {"cold", "warm"};
+    const char *name = text_format(session->arena, "%s_stages", scene);
+    Plot plot;
+    if (!name)
+        return error_set(error, ERROR_MEMORY, "no memory for a name");
+    if (!plot_open(&plot, session, name, 1040, 400, error))
+        return false;
+    size_t i;
+    json_t *row;
+    for (size_t h = 0; h < 2; h++) {
+        json_array_foreach(json_object_get(report, "rows"), i, row)
+            if (is_of(row, scene) && json_is_null(doc_at(row, "run.unavailable")))
+                put_stages(plot.data, row, HEATS[h]);
+        fputs("\n\n", plot.data);
+    }
+    fputs("set style data histograms\nset style histogram rowstacked\nset style fill solid 0.85 border rgb 'white'\n"
+          "set boxwidth 0.6\nset ylabel 'seconds (median)'\nset yrange [0:*]\nset xtics rotate by -20\n"
+          "set multiplot layout 1,2\nset key off\n",
+          plot.script);
+    for (int h = 0; h < 2; h++) {
+        fprintf(plot.script, "set title '%s'\n%splot ",
+                h ? "warm: kernels come from the cache" : "cold: kernel caches are empty",
+                h ? "set key outside right vertical reverse Left invert\n" : "");
+        for (size_t b = 0; b < BAR_COUNT; b++)
+            fprintf(plot.script, "%sdata index %d using %zu:xtic(1) lt %zu title '%s'", b ? ", " : "", h, b + 2,
+                    b == 0 ? 8 : b, BARS[b].title);
+        fputs("\n", plot.script);
+    }
+    fputs("unset multiplot\n", plot.script);
+    return plot_close(&plot, json_object_get(report, "plots"), scene, "stages", error);
+}
+
+// ---- of the whole report --------------------------------------------------------------------
+
+static void put_feature(FILE *data, const json_t *one)
+{
+    static const char *const PATHS[] = {"used.added_ns_per_ray.median", "used.added_ns_per_ray.mad",
+                                        "unused.added_ns_per_ray.median", "unused.added_ns_per_ray.mad"};
+    plot_put_name(data, doc_text(one, "feature"));
+    for (size_t i = 0; i < 4; i++) {
+        const f64 value = doc_number(one, PATHS[i]);
+        if (isfinite(value))
+            fprintf(data, " %.6g", value);
+        else
+            fputs(" NaN", data);
+    }
+    fputc('\n', data);
+}
+
+static bool draw_features(const Session *session, json_t *report, Error *error)
+{
+    const json_t *features = json_object_get(report, "features");
+    Plot plot;
+    const u32 count = (u32)json_array_size(features);
+    if (count == 0)
+        return true;
+    if (!plot_open(&plot, session, "features", 860, 120 + 24 * count, error))
+        return false;
+    fputs("# feature added_ns mad unused_added_ns mad\n", plot.data);
+    size_t i;
+    json_t *one;
+    json_array_foreach(features, i, one)
+        put_feature(plot.data, one);
+    fprintf(plot.script,
+            "set yrange [%u.5:-0.7]\nset xlabel 'ns a ray more than the scene without it (median and MAD)'\n"
+            "set style fill solid 0.8 noborder\nset key bottom right\nset xzeroaxis\n"
+            "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444' lw 1\n"
+            "plot data using 2:0:(0):2:($0-0.32):($0+0.32):ytic(1) with boxxyerror lc rgb '#0072b2' title 'used',"
+            " data using 2:0:3 with xerrorbars lc rgb '#003a5c' lw 1.5 pt 0 notitle,"
+            " data using 4:0:5 with xerrorbars lc rgb '#d55e00' lw 1.5 pt 7 ps 0.6 title 'declared but unused'\n",
+            count - 1);
+    return plot_close(&plot, json_object_get(report, "plots"), NULL, "features", error);
+}
+
+// The share of a shape's answers in each bin; a block a shape.
+static void put_shape(FILE *data, const json_t *shape)
+{
+    const json_t *bins = json_object_get(shape, "histogram");
+    f64 sum = 0;
+    size_t i;
+    json_t *bin;
+    json_array_foreach(bins, i, bin)
+        sum += doc_number(bin, "count");
+    json_array_foreach(bins, i, bin) {
+        const f64 count = doc_number(bin, "count"), end = doc_number(bin, "ulp");
+        char label[32] = "more";
+        if (isfinite(end))
+            snprintf(label, sizeof label, "%g", end);
+        fprintf(data, "%zu %.9g \"%s\"\n", i, sum > 0 && count > 0 ? count / sum : 0.0, label);
+    }
+    fputs("\n\n", data);
+}
+
+static bool draw_ulp(const Session *session, json_t *report, Error *error)
+{
+    enum { COLUMNS = 3, PANEL_WIDTH = 340, PANEL_HEIGHT = 190 };
+    const json_t *shapes = doc_at(report, "ulp.shapes");
+    const u32 count = (u32)json_array_size(shapes), lines = (count + COLUMNS - 1) / COLUMNS;
+    Plot plot;
+    if (count == 0)
+        return true;
+    if (!plot_open(&plot, session, "ulp", COLUMNS * PANEL_WIDTH, lines * PANEL_HEIGHT, error))
+        return false;
+    fprintf(plot.script,
+            "set multiplot layout %u,%d\nset logscale y\nset yrange [1e-8:2]\nset format y '%%.0e'\nset key off\n"
+            "set style fill solid 0.8 noborder\nset boxwidth 0.8\nset xtics rotate by -60 font ',9'\n"
+            "set ytics font ',9' 100\n",
+            lines, COLUMNS);
+    size_t i;
+    json_t *shape;
+    json_array_foreach(shapes, i, shape) {
+        put_shape(plot.data, shape);
+        fputs("set title ", plot.script);
+        plot_put_name(plot.script, doc_text(shape, "name"));
+        fprintf(plot.script, "\nplot data index %zu using 1:2:xtic(3) with boxes lt 1\n", i);
+    }
+    fputs("unset multiplot\n", plot.script);
+    return plot_close(&plot, json_object_get(report, "plots"), NULL, "ulp", error);
+}
+
+static bool draw_scene(const Session *session, json_t *report, const char *scene, Error *error)
+{
+    bool available = false, errors = false;
+    size_t i;
+    json_t *row;
+    json_array_foreach(json_object_get(report, "rows"), i, row) {
+        if (!is_of(row, scene))
+            continue;
+        available = available || json_is_null(doc_at(row, "run.unavailable"));
+        errors = errors || has_error(row);
+    }
+    return (!errors || (draw_convergence(session, report, scene, error) &&
+                        draw_pareto(session, report, scene, error))) &&
+           (!available || draw_stages(session, report, scene, error));
+}
+
+bool plots_make(const Session *session, json_t *report, Error *error)
+{
+    const char *folder = text_format(session->arena, "%s/plots", session->out);
+    if (!folder)
+        return error_set(error, ERROR_MEMORY, "no memory for a name");
+    if (!folder_make(folder, error))
+        return false;
+    doc_set(report, "settings.gnuplot", doc_string(plot_find_gnuplot(session, error)));
+    const char *before = "";
+    bool ok = true;
+    size_t i;
+    json_t *row;
+    json_array_foreach(json_object_get(report, "rows"), i, row) {
+        const char *scene = doc_text(row, "run.scene");
+        if (ok && scene && strcmp(scene, before) != 0)
+            ok = draw_scene(session, report, scene, error);
+        before = scene ? scene : before;
+    }
+    return ok && draw_features(session, report, error) && draw_ulp(session, report, error);
+}
