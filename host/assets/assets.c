@@ -62,8 +62,10 @@ static bool list_files(Loader *loader)
         loader->files[i].named = &loader->named.files[i];
     for (u32 i = 0; i < loader->scene->shape_count; ++i) {
         const Shape *shape = &loader->scene->shapes[i];
-        if (is_mesh(shape))
-            loader->files[named_files_find(&loader->named, shape->as.mesh.file)].wanted[wanted_by(shape)] = true;
+        if (!is_mesh(shape))
+            continue;
+        const u32 file = named_files_find(&loader->named, shape->as.mesh.file);
+        loader->files[file].wanted[wanted_by(shape)] = true;
     }
     return true;
 }
@@ -81,7 +83,8 @@ static bool is_obj(const char *path)
 static MaterialContext context_of(const Loader *loader, const MeshFile *file)
 {
     return (MaterialContext){.scene = loader->scene, .arena = loader->arena,
-                             .diagnostics = loader->diagnostics, .path = file->named->path, .at = file->named->at};
+                             .diagnostics = loader->diagnostics, .path = file->named->path,
+                             .at = file->named->at};
 }
 
 static void map_parts(Mesh *mesh, const i32 *indices)

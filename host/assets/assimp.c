@@ -24,7 +24,9 @@ bool assimp_open(Assimp *assimp, Error *error)
         find(assimp, "aiGetErrorString", &assimp->error_string) &&
         find(assimp, "aiGetMaterialColor", &assimp->material_color) &&
         find(assimp, "aiGetMaterialString", &assimp->material_string) &&
-        find(assimp, "aiGetMaterialTextureCount", &assimp->texture_count))
+        find(assimp, "aiGetMaterialFloatArray", &assimp->material_numbers) &&
+        find(assimp, "aiGetMaterialIntegerArray", &assimp->material_whole) &&
+        find(assimp, "aiGetMaterialTexture", &assimp->texture))
         return true;
     dlclose(assimp->library);
     return error_set(error, ERROR_SCENE, "%s is not the assimp that this build was made for", CLRT_ASSIMP);

@@ -7,6 +7,7 @@
 
 #ifdef CLRT_ASSIMP
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>
 #include <assimp/material.h>
@@ -22,7 +23,14 @@ typedef struct Assimp {
                                     unsigned index, struct aiColor4D *color);
     enum aiReturn (*material_string)(const struct aiMaterial *material, const char *key, unsigned type,
                                      unsigned index, struct aiString *text);
-    unsigned (*texture_count)(const struct aiMaterial *material, enum aiTextureType type);
+    enum aiReturn (*material_numbers)(const struct aiMaterial *material, const char *key, unsigned type,
+                                      unsigned index, ai_real *numbers, unsigned *count);
+    enum aiReturn (*material_whole)(const struct aiMaterial *material, const char *key, unsigned type,
+                                    unsigned index, int *numbers, unsigned *count);
+    enum aiReturn (*texture)(const struct aiMaterial *material, enum aiTextureType type, unsigned index,
+                             struct aiString *path, enum aiTextureMapping *mapping, unsigned *uvs,
+                             ai_real *blend, enum aiTextureOp *op, enum aiTextureMapMode *modes,
+                             unsigned *flags);
 } Assimp;
 
 // Fails with ERROR_SCENE where the library that the build found is not there.

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "assets/assimp.h"
+#include "assets/import_materials.h"
 #include "assets/placements.h"
 #include "assets/ply_head.h"
 #include "assets/weld.h"
@@ -245,50 +246,6 @@ static bool copy_placement(Import *import, const Placement *placement, Error *er
     return true;
 }
 
-// ---- materials ------------------------------------------------------------------------------
-
-static Vec3 color_of(const Assimp *assimp, const struct aiMaterial *from, const char *key, unsigned type,
-                     unsigned index, f64 otherwise)
-{
-    struct aiColor4D c;
-    if (assimp->material_color(from, key, type, index, &c) != aiReturn_SUCCESS)
-        return (Vec3){otherwise, otherwise, otherwise};
-    const f64 rgb[3] = {(f64)c.r, (f64)c.g, (f64)c.b};
-    f64 sound[3];
-    for (u32 k = 0; k < 3; ++k)
-        sound[k] = isnan(rgb[k]) || rgb[k] < 0 ? 0 : fmin(rgb[k], (f64)FLT_MAX);
-    return (Vec3){sound[0], sound[1], sound[2]};
-}
-
-static bool read_material(const Assimp *assimp, const struct aiMaterial *from, ImportMaterial *material)
-{
-    struct aiString name;
-    const bool named = assimp->material_string(from, AI_MATKEY_NAME, &name) == aiReturn_SUCCESS;
-    material->name = strdup(named ? name.data : "");
-    material->base_color = color_of(assimp, from, AI_MATKEY_BASE_COLOR, 1);
-    material->emission = color_of(assimp, from, AI_MATKEY_COLOR_EMISSIVE, 0);
-    material->textured = assimp->texture_count(from, aiTextureType_BASE_COLOR) > 0 ||
-                         assimp->texture_count(from, aiTextureType_NORMALS) > 0 ||
-                         assimp->texture_count(from, aiTextureType_EMISSIVE) > 0;
-    return material->name != NULL;
-}
-
-// The last material of the library's glTF reader is its own, for meshes that name none.
-static bool read_materials(const Assimp *assimp, Import *import, Error *error)
-{
-    ImportFile *file = import->file;
-    const u32 count = import->gltf && import->scene->mNumMaterials > 0 ? import->scene->mNumMaterials - 1 : 0;
-    file->materials = calloc(count ? count : 1, sizeof *file->materials);
-    if (!file->materials)
-        return no_memory(error);
-    for (; file->material_count < count; ++file->material_count) {
-        const u32 i = file->material_count;
-        if (!read_material(assimp, import->scene->mMaterials[i], &file->materials[i]))
-            return no_memory(error);
-    }
-    return true;
-}
-
 // ---- the file -------------------------------------------------------------------------------
 
 static bool format_begins(const struct aiScene *scene, const char *name)
@@ -308,7 +265,8 @@ static bool convert(const Assimp *assimp, Import *import, Error *error)
 {
     import->facets = format_begins(import->scene, "Stereolithography");
     import->gltf = format_begins(import->scene, "glTF2");
-    if (!read_materials(assimp, import, error) || !placements_make(import->scene, &import->placements, error))
+    if ((import->gltf && !import_materials(assimp, import->scene, import->file, error)) ||
+        !placements_make(import->scene, &import->placements, error))
         return false;
     const Counts counts = count_all(import);
     if (counts.faces == 0)
@@ -344,9 +302,7 @@ bool import_read(const char *path, ImportFile *file, Error *error)
 
 void import_destroy(ImportFile *file)
 {
-    for (u32 i = 0; file->materials && i < file->material_count; ++i)
-        free(file->materials[i].name);
-    free(file->materials);
+    import_materials_destroy(file);
     mesh_destroy(&file->mesh);
     memset(file, 0, sizeof *file);
 }

@@ -5,11 +5,36 @@
 #include "base/error.h"
 #include "scene/mesh.h"
 
-// Of glTF: the part of its model that other models have, too.
+// A picture within the file, as the bytes of a picture file.
+typedef struct ImportImage {
+    void *bytes;
+    size_t size;
+} ImportImage;
+
+typedef enum ImportMap {
+    IMPORT_BASE_COLOR,
+    IMPORT_METALLIC_ROUGHNESS, // roughness in green, metallic in blue
+    IMPORT_NORMAL,
+    IMPORT_OCCLUSION,
+    IMPORT_EMISSION,
+    IMPORT_MAPS
+} ImportMap;
+
+typedef struct ImportTexture {
+    char *file;   // as written, relative to the file's folder; NULL: none, or one of the images
+    i32 image;    // index of one of the images, -1: none
+    bool nearest; // no filter
+} ImportTexture;
+
+// Of glTF: the part of its model that the renderer has. Colors are linear.
 typedef struct ImportMaterial {
     char *name;
-    Vec3 base_color, emission; // linear
-    bool textured;
+    Vec3 base_color, emission; // times their textures
+    f64 metallic, roughness;   // 0 .. 1, times their texture
+    f64 transmit;              // 0 .. 1
+    f64 ior;                   // above 0
+    ImportTexture maps[IMPORT_MAPS];
+    bool inexact; // a texture is transformed, clamped, scaled, or not by the first uvs: that is left out
 } ImportMaterial;
 
 typedef struct ImportFile {
@@ -17,6 +42,8 @@ typedef struct ImportFile {
                // parts[].material is an index into materials, -1: none
     ImportMaterial *materials; // of glTF 2 alone
     u32 material_count;
+    ImportImage *images;
+    u32 image_count;
 } ImportFile;
 
 // Whether this build has assimp.

@@ -32,8 +32,8 @@ static void read_file(const NamedFiles *named, const NamedFile *file, Bitmap *bi
     const u64 bad = bitmap_repair(bitmap);
     if (bad > 0)
         scene_report(named->scene, named->diagnostics, SEVERITY_WARNING, file->at,
-                     "'%s' has %llu value%s below 0, infinite or not a number; these are taken as 0, or as the "
-                     "largest there is",
+                     "'%s' has %llu value%s below 0, infinite or not a number; these are taken as 0, or as "
+                     "the largest there is",
                      file->path, (unsigned long long)bad, bad > 1 ? "s" : "");
 }
 
@@ -50,7 +50,8 @@ static void point_environment(const NamedFiles *named, Environment *environment)
         return;
     environment->bitmap = NULL;
     scene_report(named->scene, named->diagnostics, SEVERITY_ERROR, environment->file_at,
-                 "'%s' has levels, no radiance; an environment is Radiance HDR or OpenEXR", environment->file);
+                 "'%s' has levels, no radiance; an environment is Radiance HDR or OpenEXR",
+                 environment->file);
 }
 
 static bool load(NamedFiles *named, Scene *scene, Arena *arena)

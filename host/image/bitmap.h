@@ -20,8 +20,9 @@ typedef struct Bitmap {
     u32 width, height; // 1 .. BITMAP_SIDE_MAX
     u32 channels;      // 1 grey, 3 RGB; there is no alpha
     BitmapType type;
-    void *texels; // from page_alloc, bitmap_bytes of them: the top row first, channels of a texel side by side,
-                  // rows without padding, in the byte order of this machine. Who takes them puts NULL here.
+    // From page_alloc, bitmap_bytes of them: the top row first, channels of a texel side by side, no padding,
+    // in the byte order of this machine. Who takes them puts NULL here.
+    void *texels;
 } Bitmap;
 
 // A bitmap of zeros. Fails, and leaves *bitmap zeroed, where a size is 0 or above BITMAP_SIDE_MAX

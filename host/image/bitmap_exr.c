@@ -259,7 +259,8 @@ bool bitmap_decode_exr(const u8 *bytes, size_t size, Bitmap *bitmap, Error *erro
     (void)bytes;
     (void)size;
     (void)bitmap;
-    return error_set(error, ERROR_SCENE, "this build reads no OpenEXR; OpenEXRCore was not there when it was made");
+    return error_set(error, ERROR_SCENE,
+                     "this build reads no OpenEXR; OpenEXRCore was not there when it was made");
 }
 
 #endif

@@ -64,9 +64,9 @@ static bool read_image(Reader *reader)
     set_transforms(png, png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE);
     const int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
+    const BitmapType type = png_get_bit_depth(png, info) == 16 ? BITMAP_U16 : BITMAP_U8;
     if (!bitmap_create(reader->bitmap, png_get_image_width(png, info), png_get_image_height(png, info),
-                       png_get_channels(png, info), png_get_bit_depth(png, info) == 16 ? BITMAP_U16 : BITMAP_U8,
-                       reader->error))
+                       png_get_channels(png, info), type, reader->error))
         return false;
     for (int pass = 0; pass < passes; pass++) {
         for (u32 y = 0; y < reader->bitmap->height; y++)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "layout/environment.h"
 #include "layout/filter.h"
 #include "layout/hierarchy.h"
 #include "layout/lights.h"
@@ -33,7 +34,13 @@ static u32 seen_textures(const Scene *scene, const Material *material, bool ligh
     return material_textures(material, lit, positive(ambient_light(scene, material)), textures);
 }
 
-// Features that one used material brings.
+// Whether some light can shine on surfaces of the material.
+static bool material_lit(const Layout *layout, const Material *material)
+{
+    return lights_direct(layout) || (material->kind == MATERIAL_PBR && layout->environment);
+}
+
+// Features that one used material brings. lights: as material_lit.
 static FeatureSet material_features(const Scene *scene, const Material *material, bool lights)
 {
     FeatureSet set = 0;
@@ -55,8 +62,6 @@ static FeatureSet material_features(const Scene *scene, const Material *material
     if (lights && !pbr && positive(material->specular))
         set |= feature_bit(FEATURE_SPECULAR) |
                feature_bit(material->kind == MATERIAL_BLINN_PHONG ? FEATURE_BLINN : FEATURE_PHONG);
-    if (lights && transmits && scene->render.shadows)
-        set |= feature_bit(FEATURE_TRANSMITTANCE);
     if (deep && (mirrors || transmits))
         set |= feature_bit(FEATURE_REFLECT); // also what transmits: total internal reflection
     if (deep && transmits)
@@ -78,8 +83,7 @@ static LightUse light_use(const Scene *scene, const Placer *placer)
         const bool pbr = material->kind == MATERIAL_PBR;
         const ColorInput ambient = pbr ? material->base_color : material->ambient;
         use.pbr = use.pbr || pbr;
-        use.ambient = use.ambient || (positive(ambient_light(scene, material)) &&
-                                      (ambient.texture >= 0 || positive(ambient.color)));
+        use.ambient = use.ambient || (positive(ambient_light(scene, material)) && positive(ambient.color));
     }
     return use;
 }
@@ -98,18 +102,25 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
 {
     FeatureSet set = placer->features;
     const bool bounded = placer->top.count > 0, surfaces = bounded || placer->planes.count > 0;
-    const bool lights = surfaces && lights_direct(layout);
     if (surfaces)
         set |= feature_bit(FEATURE_SURFACES);
     if (bounded)
         set |= feature_bit(FEATURE_BVH);
     if (surfaces)
         set |= lights_features(layout, scene->render.shadows);
+    if (layout->environment)
+        set |= feature_bit(FEATURE_ENVIRONMENT);
+    if (surfaces && layout->environment_levels)
+        set |= feature_bit(FEATURE_PREFILTERED);
     if (features_have(set, FEATURE_SPHERE_LIGHT) || features_have(set, FEATURE_RECTANGLE_LIGHT))
         set |= feature_bit(FEATURE_EMISSION);
     for (u32 i = 0; i < scene->material_count; i++)
         if (placer->material_used[i])
-            set |= material_features(scene, &scene->materials[i], lights);
+            set |= material_features(scene, &scene->materials[i], material_lit(layout, &scene->materials[i]));
+    const bool shadows = scene->render.shadows && lights_shine(layout);
+    for (u32 i = 0; shadows && i < scene->material_count; i++)
+        if (placer->material_used[i] && material_transmits(&scene->materials[i]))
+            set |= feature_bit(FEATURE_TRANSMITTANCE);
     if (!features_have(set, FEATURE_UV))
         set &= ~feature_bit(FEATURE_MESH_UVS);
     if (positive(scene->background))
@@ -168,7 +179,6 @@ static void finish(Layout *layout)
 // Textures, and the texels of those that can be seen.
 static bool add_textures(Layout *layout, const Scene *scene, const Placer *placer, Error *error)
 {
-    const bool lights = features_have(layout->features, FEATURE_LIGHTS);
     bool *used = calloc(scene->texture_count + (size_t)1, sizeof *used);
     if (!used)
         return error_set(error, ERROR_MEMORY, "no memory for %u textures", scene->texture_count);
@@ -176,7 +186,8 @@ static bool add_textures(Layout *layout, const Scene *scene, const Placer *place
         i32 textures[MATERIAL_TEXTURES_MAX];
         if (!placer->material_used[i])
             continue;
-        for (u32 k = seen_textures(scene, &scene->materials[i], lights, textures); k-- > 0;)
+        const bool lit = material_lit(layout, &scene->materials[i]);
+        for (u32 k = seen_textures(scene, &scene->materials[i], lit, textures); k-- > 0;)
             used[textures[k]] = true;
     }
     const bool ok = textures_add(layout, scene, used, error);
@@ -195,6 +206,7 @@ Layout *layout_create(const Scene *scene, Error *error)
     layout->params = camera_params(scene);
     layout->root = NO_INDEX;
     bool ok = placer_run(&placer, scene, error) && add_records(layout, scene, &placer, error) &&
+              environment_add(layout, scene, light_use(scene, &placer).pbr, error) &&
               lights_add(layout, scene, light_use(scene, &placer), error);
     if (ok) {
         layout->features = scene_features(scene, layout, &placer);
@@ -229,6 +241,14 @@ void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS])
         { "textures", l->textures, l->texture_count * sizeof *l->textures },
         { "texels", l->texels, l->texel_bytes },
         { "lights", l->lights, l->light_count * sizeof *l->lights },
+        { "environment", l->environment, l->environment ? sizeof *l->environment : 0 },
+        { "environment_texels", l->environment_texels,
+          l->environment_texel_count * sizeof *l->environment_texels },
+        { "environment_cdf", l->environment_cdf, l->environment_cdf_count * sizeof *l->environment_cdf },
+        { "environment_edges", l->environment_edges,
+          l->environment_edge_count * sizeof *l->environment_edges },
+        { "environment_levels", l->environment_levels,
+          l->environment_level_count * sizeof *l->environment_levels },
         { "quantiles", l->quantiles, l->quantile_count * sizeof *l->quantiles },
     };
     memcpy(arrays, all, sizeof all);

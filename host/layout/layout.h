@@ -8,6 +8,7 @@
 #include "layout/features.h"
 #include "scene/scene.h"
 #include "shared/bvh.h"
+#include "shared/environment.h"
 #include "shared/instance.h"
 #include "shared/light.h"
 #include "shared/material.h"
@@ -50,6 +51,15 @@ typedef struct Layout {
     u64 texel_bytes;
     LightRecord *lights;
     u32 light_count;
+    EnvironmentRecord *environment; // NULL: none that shines
+    f32 *environment_texels;        // shared/environment.h
+    u64 environment_texel_count;    // in numbers
+    u32 *environment_cdf;           // where directions are drawn from it
+    u64 environment_cdf_count;
+    f32 *environment_edges;
+    u32 environment_edge_count;
+    f32 *environment_levels;        // where it is prefiltered
+    u64 environment_level_count;
     f32 *quantiles; // of the pixel filter, where it needs a table
     u32 quantile_count;
     RenderParams params; // all but crop, samples in hand and what the device decides
@@ -63,7 +73,7 @@ typedef struct LayoutArray {
     u64 bytes;
 } LayoutArray;
 
-#define LAYOUT_ARRAYS 15
+#define LAYOUT_ARRAYS 20
 void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS]);
 
 // Shapes that are meshes must have theirs, one of scene->meshes. Fails with ERROR_MEMORY, and with the place

@@ -14,6 +14,7 @@ static const Feature KIND_FEATURES[LIGHT_KIND_COUNT] = {
     [LIGHT_KIND_POINT] = FEATURE_POINT,           [LIGHT_KIND_DIRECTIONAL] = FEATURE_DIRECTIONAL,
     [LIGHT_KIND_SPOT] = FEATURE_SPOT,             [LIGHT_KIND_SPHERE] = FEATURE_SPHERE_LIGHT,
     [LIGHT_KIND_RECTANGLE] = FEATURE_RECTANGLE_LIGHT, [LIGHT_KIND_OCCLUSION] = FEATURE_OCCLUSION,
+    [LIGHT_KIND_ENVIRONMENT] = FEATURE_ENVIRONMENT_LIGHT,
 };
 
 static bool bright(const Light *light)
@@ -36,6 +37,11 @@ static u32 occlusion_samples(const Scene *scene, LightUse use)
     return use.ambient ? scene->render.ambient_occlusion_samples : 0;
 }
 
+static u32 environment_samples(const Scene *scene, const Layout *layout)
+{
+    return layout->environment_cdf ? scene->render.environment_samples : 0;
+}
+
 // Puts `samples` copies of the record, which has all but what tells them apart.
 static void put(Layout *layout, u32 *count, LightRecord record, u32 samples, u32 *sequence)
 {
@@ -53,7 +59,7 @@ static void put(Layout *layout, u32 *count, LightRecord record, u32 samples, u32
 
 bool lights_add(Layout *layout, const Scene *scene, LightUse use, Error *error)
 {
-    u64 total = occlusion_samples(scene, use);
+    u64 total = (u64)occlusion_samples(scene, use) + environment_samples(scene, layout);
     for (u32 i = 0; i < scene->light_count; i++)
         total += bright(&scene->lights[i]) ? light_samples(&scene->lights[i]) : 0;
     if (total > RECORDS_MAX)
@@ -74,6 +80,11 @@ bool lights_add(Layout *layout, const Scene *scene, LightUse use, Error *error)
         if (bright(light))
             put(layout, &count, record, light_samples(light), &sequence);
     }
+    if (environment_samples(scene, layout) > 0) {
+        const LightRecord record = { .kind = LIGHT_KIND_ENVIRONMENT, .position = { 0, 0, 0, traced },
+                                     .intensity = { 1, 1, 1, 0 }, .surface = -1 };
+        put(layout, &count, record, environment_samples(scene, layout), &sequence);
+    }
     if (occlusion_samples(scene, use) > 0) {
         const LightRecord record = { .kind = LIGHT_KIND_OCCLUSION, .position = { 0, 0, 0, 1 },
                                      .intensity = { 1, 1, 1, 0 }, .surface = -1,
@@ -83,15 +94,18 @@ bool lights_add(Layout *layout, const Scene *scene, LightUse use, Error *error)
     return true;
 }
 
-static bool is_direct(const LightRecord *light)
-{
-    return light->kind != LIGHT_KIND_OCCLUSION;
-}
-
 bool lights_direct(const Layout *layout)
 {
     for (u32 i = 0; i < layout->light_count; i++)
-        if (is_direct(&layout->lights[i]))
+        if (layout->lights[i].kind <= LIGHT_KIND_RECTANGLE)
+            return true;
+    return false;
+}
+
+bool lights_shine(const Layout *layout)
+{
+    for (u32 i = 0; i < layout->light_count; i++)
+        if (layout->lights[i].kind != LIGHT_KIND_OCCLUSION)
             return true;
     return false;
 }
@@ -102,7 +116,7 @@ FeatureSet lights_features(const Layout *layout, bool shadows)
     for (u32 i = 0; i < layout->light_count; i++) {
         const LightRecord *light = &layout->lights[i];
         set |= feature_bit(FEATURE_LIGHTS) | feature_bit(KIND_FEATURES[light->kind]);
-        if (shadows || !is_direct(light))
+        if (shadows || light->kind == LIGHT_KIND_OCCLUSION)
             set |= feature_bit(FEATURE_SHADOWS);
         if (light->kind >= LIGHT_KIND_SPHERE)
             set |= feature_bit(FEATURE_HIT_RANDOM);

@@ -11,15 +11,16 @@ typedef struct LightUse {
     bool pbr;     // some are lit by an environment
 } LightUse;
 
-// Adds the records; lights that are black have none. Fails with ERROR_MEMORY and where there are too many samples
+// Adds the records, once the environment is there; lights that are black have none. Fails with ERROR_MEMORY and where there are too many samples
 // (ERROR_SCENE).
 bool lights_add(Layout *layout, const Scene *scene, LightUse use, Error *error);
 
 // Of the records, in a scene that has surfaces. shadows: the scene's setting.
 FeatureSet lights_features(const Layout *layout, bool shadows);
 
-// Whether some record shines on materials of all kinds.
+// Whether some record shines on materials of all kinds; whether some one is a light at all.
 bool lights_direct(const Layout *layout);
+bool lights_shine(const Layout *layout);
 
 // Once primitives and planes have their places: which of them are never before a light.
 void lights_finish(Layout *layout);

@@ -75,8 +75,8 @@ bool output_ignores_display_settings(const char *path)
 static bool check_format(Format format, const char *path, Error *error)
 {
     if (format == FORMAT_EXR && !exr_stream_available())
-        return error_set(error, ERROR_USAGE, "%s: this build writes no OpenEXR; the output may be .png, .hdr or .pfm",
-                         path);
+        return error_set(error, ERROR_USAGE,
+                         "%s: this build writes no OpenEXR; the output may be .png, .hdr or .pfm", path);
     if (format == FORMAT_UNKNOWN)
         return error_set(error, ERROR_USAGE,
                          "%s: the suffix says the format and must be .png, .exr, .hdr or .pfm", path);

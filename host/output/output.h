@@ -15,7 +15,7 @@ typedef struct OutputText {
 typedef struct OutputOptions {
     OutputSettings settings; // exposure, tone map, white, encoding; the *_given members are not read
     u32 bits;                // of a PNG: 8 or 16
-    const OutputText *texts; // of a PNG, EXR or HDR, in this order, before the image; read by output_open only
+    const OutputText *texts; // of a PNG, EXR or HDR, in this order, before the image; for output_open only
     size_t text_count;
 } OutputOptions;
 

@@ -12,7 +12,6 @@ static void check_settings(const Scene *scene, Diagnostics *diagnostics)
 {
     refuse(scene, diagnostics, scene->render.integrator_at, scene->render.integrator == INTEGRATOR_PATH,
            "'integrator path' is");
-    refuse(scene, diagnostics, scene->environment.at, scene->environment.present, "'environment' is");
 }
 
 void scene_check_support(const Scene *scene, Diagnostics *diagnostics)

@@ -5,6 +5,7 @@
 #include "base/random.h"
 
 typedef struct { vf x, y; } SamplePoint;
+typedef struct { vu x, y; } SampleBits; // 2^32 is 1
 
 static inline vu reverse_bits(vu x)
 {
@@ -43,14 +44,27 @@ static inline vu sobol_second_reversed(vu index)
 // point in each of the 2^m boxes of any 2^-a x 2^(a-m); the scrambles and the order differ from pixel to
 // pixel and from pair to pair, so that pairs combine to more dimensions by padding.
 // Burley, "Practical Hash-based Owen Scrambling", 2020.
-static inline SamplePoint sample_2d(vu pixel_key, vu index, uint pair)
+static inline SampleBits sample_2d_bits(vu pixel_key, vu index, uint pair)
 {
     const vu3 seeds = random_hash(pixel_key, (vu)(pair), (vu)(0x9e3779b9u));
     const vu shuffled = reverse_bits(owen_scramble_reversed(reverse_bits(index), seeds.x));
+    SampleBits bits;
+    bits.x = reverse_bits(owen_scramble_reversed(shuffled, seeds.y));
+    bits.y = reverse_bits(owen_scramble_reversed(sobol_second_reversed(shuffled), seeds.z));
+    return bits;
+}
+
+static inline SamplePoint sample_point(SampleBits bits)
+{
     SamplePoint point;
-    point.x = random_unit(reverse_bits(owen_scramble_reversed(shuffled, seeds.y)));
-    point.y = random_unit(reverse_bits(owen_scramble_reversed(sobol_second_reversed(shuffled), seeds.z)));
+    point.x = random_unit(bits.x);
+    point.y = random_unit(bits.y);
     return point;
+}
+
+static inline SamplePoint sample_2d(vu pixel_key, vu index, uint pair)
+{
+    return sample_point(sample_2d_bits(pixel_key, index, pair));
 }
 
 #endif

@@ -14,6 +14,9 @@
 #if HAS_PBR
 #include "material/pbr.h"
 #endif
+#if HAS_ENVIRONMENT
+#include "light/environment.h"
+#endif
 
 // Records in numbers, for Row.
 #define PRIMITIVE_NUMBERS 16
@@ -35,6 +38,9 @@ enum {
 // What shading reads of the scene, beside the hierarchy.
 typedef struct {
     global const MaterialRecord *materials;
+#if HAS_ENVIRONMENT
+    Environment environment;
+#endif
 #if HAS_TEXTURES
     Textures textures;
 #endif

@@ -150,6 +150,15 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_LIGHTS
                          global const LightRecord *lights,
 #endif
+#if HAS_ENVIRONMENT
+                         global const EnvironmentRecord *environment, global const f32 *environment_texels,
+#endif
+#if HAS_ENVIRONMENT_LIGHT
+                         global const uint *environment_cdf, global const f32 *environment_edges,
+#endif
+#if HAS_PREFILTERED
+                         global const f32 *environment_levels,
+#endif
 #if HAS_FILTER_TABLE
                          global const f32 *quantiles,
 #endif
@@ -207,6 +216,17 @@ kernel void render_tiles(constant RenderParams *params,
 #endif
 #if HAS_TRIANGLE_EXTRA
     shading.extras = extras;
+#endif
+#if HAS_ENVIRONMENT
+    shading.environment.record = environment;
+    shading.environment.texels = environment_texels;
+#endif
+#if HAS_ENVIRONMENT_LIGHT
+    shading.environment.cdf = environment_cdf;
+    shading.environment.edges = environment_edges;
+#endif
+#if HAS_PREFILTERED
+    shading.environment.levels = environment_levels;
 #endif
 #if !HAS_LIGHTS
     global const LightRecord *lights = 0;

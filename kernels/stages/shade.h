@@ -42,6 +42,27 @@ OUTLINE v3 hit_ambient(const Hit *hit, const Shading *shading)
 }
 #endif
 
+#if HAS_PREFILTERED
+// Light of the environment on pbr materials, as if nothing stood in its way.
+OUTLINE v3 hit_prefiltered(const Hit *hit, const Shading *shading)
+{
+    const PbrLanes *m = &hit->pbr;
+    const Environment *environment = &shading->environment;
+    const vf cosine = vf_max(-v3_dot(hit->ns, hit->dir), (vf)(0.0f));
+    const v3 mirrored = v3_normalize(reflect_about(hit->dir, hit->ns)), f0 = pbr_f0(m);
+    const v3 reflectance = prefiltered_reflectance(environment, cosine, m->roughness);
+    const vf lobe = m->roughness >= (vf)(PBR_MIRROR) ? 1.0f - pbr_through(m) : (vf)(0.0f);
+    const vf body = (1.0f - m->metallic) * (1.0f - m->transmit) * reflectance.z;
+    const v3 shine = v3_fma(f0, reflectance.x, v3_make(reflectance.y, reflectance.y, reflectance.y));
+    const v3 base = v3_mul(m->base_color, v3_sub(v3_splat(1.0f), f0));
+    const v3 sum = v3_add(
+        v3_mul(v3_scale(shine, lobe), prefiltered_radiance(environment, mirrored, m->roughness)),
+        v3_mul(v3_scale(base, body), prefiltered_irradiance(environment, hit->ns)));
+    const vf open = hit_number(hit, shading, MATERIAL_OCCLUSION, MATERIAL_OCCLUSION_TEXTURE);
+    return v3_select(hit_is_pbr(hit), v3_scale(sum, open), v3_splat(0.0f));
+}
+#endif
+
 // Emission and, where no rays look for what occludes it, ambient light.
 OUTLINE v3 shade_unlit(const Hit *hit, const Shading *shading)
 {
@@ -55,6 +76,9 @@ OUTLINE v3 shade_unlit(const Hit *hit, const Shading *shading)
 #endif
 #if HAS_AMBIENT && !HAS_OCCLUSION
     sum = v3_add(sum, hit_ambient(hit, shading));
+#endif
+#if HAS_PREFILTERED
+    sum = v3_add(sum, hit_prefiltered(hit, shading));
 #endif
     return sum;
 }
@@ -132,8 +156,37 @@ static inline LightRay occlusion_ray(const Hit *hit, v3 ambient, global const Li
 }
 #endif
 
+#if HAS_ENVIRONMENT_LIGHT
+// One direction, from the map or from the material, each half of the time: so its density is the mean of both
+// (the balance heuristic of Veach and Guibas, "Optimally Combining Sampling Techniques", 1995).
+static inline LightRay environment_ray(const Hit *hit, const Environment *environment, global const LightRecord *light)
+{
+    LightRay ray;
+    const SampleBits bits = hit_random_bits(&hit->random, light, 0);
+    const SamplePoint point = sample_point(bits), choice = hit_random_point(&hit->random, light, 1);
+    const v3 to_eye = v3_neg(hit->dir);
+    const vm by_map = choice.x < (vf)(0.5f);
+    const EnvironmentSample drawn = environment_sample(environment, bits);
+    const v3 scattered = pbr_sample(&hit->pbr, hit->ns, to_eye, point.x, point.y, choice.y);
+    const EnvironmentSample seen = environment_look(environment, scattered);
+    ray.dir = v3_select(by_map, drawn.dir, scattered);
+    ray.length = (vf)(INFINITY);
+    const v3 radiance = v3_select(by_map, drawn.radiance, seen.radiance);
+    const vf cosine = v3_dot(hit->ns, ray.dir);
+    const vm lit = hit_is_pbr(hit) & (cosine > (vf)(0.0f)) & (v3_dot(hit->ng, ray.dir) > (vf)(0.0f));
+    const vf by_material = lit ? pbr_pdf(&hit->pbr, hit->ns, to_eye, ray.dir) : (vf)(0.0f);
+    const vf density = (by_map ? drawn.density : seen.density) + by_material;
+    const vf weight = cosine * (2.0f * light->intensity.x) / (density > (vf)(0.0f) ? density : (vf)(1.0f));
+    const v3 brdf = pbr_brdf(&hit->pbr, hit->ns, to_eye, ray.dir);
+    const v3 gain = v3_mul(radiance, v3_scale(brdf, weight));
+    ray.gain = v3_select(lit & (density > (vf)(0.0f)), gain, v3_splat(0.0f));
+    return ray;
+}
+#endif
+
 // diffuse, ambient: what the hit reflects of lights and of ambient light.
-OUTLINE LightRay light_ray(const Hit *hit, v3 diffuse, v3 ambient, global const LightRecord *light)
+OUTLINE LightRay light_ray(const Hit *hit, const Shading *shading, v3 diffuse, v3 ambient,
+                           global const LightRecord *light)
 {
     LightRay ray;
     ray.dir = ray.gain = v3_splat(0.0f);
@@ -141,6 +194,10 @@ OUTLINE LightRay light_ray(const Hit *hit, v3 diffuse, v3 ambient, global const 
 #if HAS_OCCLUSION
     if (light->kind == LIGHT_KIND_OCCLUSION)
         return occlusion_ray(hit, ambient, light);
+#endif
+#if HAS_ENVIRONMENT_LIGHT
+    if (light->kind == LIGHT_KIND_ENVIRONMENT)
+        return environment_ray(hit, &shading->environment, light);
 #endif
 #if HAS_DIRECT_LIGHTS
 #if HAS_AREA_LIGHTS
@@ -169,7 +226,7 @@ OUTLINE vi shade_lights(const State *s, const Slots *slots, const Hit *hit, cons
     ambient = hit_ambient(hit, shading);
 #endif
     for (uint l = pass->first; l < pass->last; l++) {
-        const LightRay ray = light_ray(hit, diffuse, ambient, &lights[l]);
+        const LightRay ray = light_ray(hit, shading, diffuse, ambient, &lights[l]);
         const v3 gain = v3_mul(throughput, ray.gain);
         const vm arrives = shaded & ((gain.x > (vf)(0.0f)) | (gain.y > (vf)(0.0f)) | (gain.z > (vf)(0.0f)));
 #if HAS_OCCLUSION
@@ -202,7 +259,7 @@ OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *s
     global const int *queue = s->ints + QUEUE * TILE_SLOTS;
     for (uint i = GROUP_ITEM * LANES; i < count; i += GROUP * LANES) {
         const Slots slots = slots_make(queue, i, count);
-#if HAS_SURFACES || HAS_BACKGROUND
+#if HAS_SURFACES || HAS_BACKGROUND || HAS_ENVIRONMENT
         const vf t = state_load(s, RAY_T, &slots);
         const vm shaded = slots.valid & (t < (vf)(INFINITY));
         const v3 throughput = state_load3(s, THROUGHPUT, &slots);
@@ -213,6 +270,12 @@ OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *s
         if (pass->opening) {
             const v3 back = v3_mul(throughput, v3_from(params->background));
             radiance = v3_select(shaded, radiance, v3_add(radiance, back));
+        }
+#endif
+#if HAS_ENVIRONMENT
+        if (pass->opening && !vm_all(shaded)) {
+            const v3 back = environment_radiance(&shading->environment, state_load3(s, RAY_DIR, &slots));
+            radiance = v3_select(shaded, radiance, v3_add(radiance, v3_mul(throughput, back)));
         }
 #endif
 #if HAS_SURFACES

@@ -12,7 +12,8 @@
 
 static void write_png(const char *name, u32 width, u32 height, u8 level)
 {
-    png_image image = {.version = PNG_IMAGE_VERSION, .width = width, .height = height, .format = PNG_FORMAT_GRAY};
+    png_image image = {
+        .version = PNG_IMAGE_VERSION, .width = width, .height = height, .format = PNG_FORMAT_GRAY};
     u8 levels[64];
     memset(levels, level, sizeof levels);
     assert_true(width * height <= sizeof levels);
@@ -65,7 +66,8 @@ static void test_sharing(void **state)
     Parsed p = load_text("texture a image { file \"a.png\" }\ntexture c checker { colors 0 1 }\n"
                          "texture b image { file \"./a.png\" color linear }\n"
                          "texture d image { file \"link.png\" }\ntexture e image { file \"sky.hdr\" }\n"
-                         "texture f image { file \"a.png\" filter nearest }\nenvironment { file \"sky.hdr\" }\n");
+                         "texture f image { file \"a.png\" filter nearest }\n"
+                         "environment { file \"sky.hdr\" }\n");
     assert_string_equal(p.messages, "");
     assert_int_equal(p.scene->bitmap_count, 2);
     const Texture *textures = p.scene->textures;
@@ -118,15 +120,18 @@ static void test_errors(void **state)
                     "t:1:19: error: cannot read 'none.png': No such file or directory\n"
                     "    texture a image { file \"none.png\" }\n                      ^~~~\n"
                     "t:3:29: error: cannot read 'text.png': not a PNG, JPEG, Radiance HDR or OpenEXR file\n"
-                    "    texture c image { scale 1 1 file \"text.png\" }\n                                ^~~~\n"
+                    "    texture c image { scale 1 1 file \"text.png\" }\n"
+                    "                                ^~~~\n"
                     "t:4:19: error: cannot read '.': Is a directory\n"
                     "    texture d image { file \".\" }\n                      ^~~~\n"
                     "t:6:3: error: cannot read 'cut.hdr': the file ends too early\n"
                     "      file \"cut.hdr\"\n      ^~~~\n"
-                    "t:8:19: error: cannot read 'huge.hdr': no memory for 16000000 x 16000000 texels of 12 bytes\n"
+                    "t:8:19: error: cannot read 'huge.hdr': no memory for 16000000 x 16000000 texels of 12 "
+                    "bytes\n"
                     "    texture f image { file \"huge.hdr\" }\n                      ^~~~\n");
     expect_messages("environment { file \"a.png\" }",
-                    "t:1:15: error: 'a.png' has levels, no radiance; an environment is Radiance HDR or OpenEXR\n"
+                    "t:1:15: error: 'a.png' has levels, no radiance; an environment is Radiance HDR or "
+                    "OpenEXR\n"
                     "    environment { file \"a.png\" }\n                  ^~~~\n");
     expect_messages("environment { file \"none.hdr\" }",
                     "t:1:15: error: cannot read 'none.hdr': No such file or directory\n"
@@ -144,8 +149,8 @@ static void test_repair(void **state)
     bytes_end(&bytes);
     Parsed p = load_text("environment { file \"sky.exr\" }");
     assert_string_equal(p.messages,
-                        "t:1:15: warning: 'sky.exr' has 2 values below 0, infinite or not a number; these are taken "
-                        "as 0, or as the largest there is\n"
+                        "t:1:15: warning: 'sky.exr' has 2 values below 0, infinite or not a number; these "
+                        "are taken as 0, or as the largest there is\n"
                         "    environment { file \"sky.exr\" }\n                  ^~~~\n");
     const Bitmap *bitmap = p.scene->environment.bitmap;
     assert_non_null(bitmap);

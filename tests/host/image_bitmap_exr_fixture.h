@@ -52,7 +52,8 @@ static inline int64_t exr_on_write(exr_const_context_t context, void *user, cons
 static inline void exr_add_part_of(exr_context_t context, const ExrCase *c, const char *name)
 {
     int part;
-    assert_int_equal(exr_add_part(context, name, c->tile ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part), 0);
+    const exr_storage_t storage = c->tile ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE;
+    assert_int_equal(exr_add_part(context, name, storage, &part), 0);
     const exr_attr_box2i_t data = {{.x = c->left, .y = c->top},
                                    {.x = c->left + EXR_WIDTH - 1, .y = c->top + EXR_HEIGHT - 1}};
     const exr_attr_v2f_t center = {.x = 0, .y = 0};
@@ -63,8 +64,8 @@ static inline void exr_add_part_of(exr_context_t context, const ExrCase *c, cons
                                                  c->mip_maps ? EXR_TILE_MIPMAP_LEVELS : EXR_TILE_ONE_LEVEL,
                                                  EXR_TILE_ROUND_DOWN), 0);
     for (int i = 0; i < EXR_CHANNELS_MAX && c->names[i]; i++)
-        assert_int_equal(exr_add_channel(context, part, c->names[i], c->types[i], EXR_PERCEPTUALLY_LOGARITHMIC,
-                                         1, 1), 0);
+        assert_int_equal(exr_add_channel(context, part, c->names[i], c->types[i],
+                                         EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1), 0);
 }
 
 // Encodes the chunk whose top left pixel is x, y of the picture (of a smaller level: what stands there).
@@ -82,8 +83,10 @@ static inline void exr_encode(exr_context_t context, int part, const exr_chunk_i
             const u16 half = exr_half(value);
             if (channel->data_type == EXR_PIXEL_HALF)
                 memcpy(&pixels[i][2 * k], &half, 2);
+            else if (channel->data_type == EXR_PIXEL_UINT)
+                memcpy(&pixels[i][4 * k], &whole, 4);
             else
-                memcpy(&pixels[i][4 * k], channel->data_type == EXR_PIXEL_UINT ? (const void *)&whole : &value, 4);
+                memcpy(&pixels[i][4 * k], &value, 4);
         }
         channel->user_pixel_stride = channel->bytes_per_element;
         channel->user_line_stride = (int32_t)width * channel->bytes_per_element;

@@ -108,7 +108,8 @@ static void test_new_runs(void **state)
     Bitmap bitmap = expect_bitmap(&bytes, WIDTH, 2, 3, BITMAP_FLOAT);
     for (int x = 0; x < WIDTH; x++) {
         assert_texel(&bitmap, (u32)x, 0, x < 127 ? 0x11 : x < 254 ? 0x22 : 0x33,
-                     x < 128 ? x + 60 : x < 255 ? 5 : 6, x == 254 ? 8 : 7, x < 127 ? 128 : x < 254 ? 129 : 130);
+                     x < 128 ? x + 60 : x < 255 ? 5 : 6, x == 254 ? 8 : 7,
+                     x < 127 ? 128 : x < 254 ? 129 : 130);
         assert_texel(&bitmap, (u32)x, 1, 2, 2, 200, 100 + x % 50);
     }
     bitmap_destroy(&bitmap);

@@ -61,7 +61,8 @@ static const Case PROGRESSIVE = {JCS_RGB, JCS_YCbCr, 3, true};
 static void test_kinds(void **state)
 {
     (void)state;
-    static const Case RGB = {JCS_RGB, JCS_RGB, 3, false}, GREY_PROGRESSIVE = {JCS_GRAYSCALE, JCS_GRAYSCALE, 1, true};
+    static const Case RGB = {JCS_RGB, JCS_RGB, 3, false};
+    static const Case GREY_PROGRESSIVE = {JCS_GRAYSCALE, JCS_GRAYSCALE, 1, true};
     const Case *cases[] = {&GREY, &YCC, &PROGRESSIVE, &RGB, &GREY_PROGRESSIVE};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const Case *c = cases[i];

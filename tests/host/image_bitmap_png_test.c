@@ -28,7 +28,10 @@ static png_color palette_color(u32 i)
 
 static u32 stored_channels(int type)
 {
-    return type == PNG_COLOR_TYPE_RGB ? 3 : type == PNG_COLOR_TYPE_RGBA ? 4 : type == PNG_COLOR_TYPE_GRAY_ALPHA ? 2 : 1;
+    return type == PNG_COLOR_TYPE_RGB          ? 3
+           : type == PNG_COLOR_TYPE_RGBA       ? 4
+           : type == PNG_COLOR_TYPE_GRAY_ALPHA ? 2
+                                               : 1;
 }
 
 static void on_write(png_structp png, png_bytep data, size_t size)
@@ -110,7 +113,8 @@ static u32 expected(const Case *c, u32 x, u32 y, u32 channel)
 static void check(const Case *c, bool gamma)
 {
     Bytes bytes = make_png(c, gamma);
-    Bitmap bitmap = expect_bitmap(&bytes, WIDTH, HEIGHT, c->channels, c->depth == 16 ? BITMAP_U16 : BITMAP_U8);
+    const BitmapType type = c->depth == 16 ? BITMAP_U16 : BITMAP_U8;
+    Bitmap bitmap = expect_bitmap(&bytes, WIDTH, HEIGHT, c->channels, type);
     for (u32 y = 0; y < HEIGHT; y++) {
         for (u32 x = 0; x < WIDTH; x++) {
             for (u32 k = 0; k < c->channels; k++) {
@@ -134,8 +138,10 @@ static void test_kinds(void **state)
         bool may_be_transparent;
         u32 channels;
     } KINDS[] = {
-        {PNG_COLOR_TYPE_GRAY, {1, 2, 4, 8, 16, 0}, true, 1}, {PNG_COLOR_TYPE_GRAY_ALPHA, {8, 16, 0}, false, 1},
-        {PNG_COLOR_TYPE_PALETTE, {1, 2, 4, 8, 0}, true, 3},  {PNG_COLOR_TYPE_RGB, {8, 16, 0}, true, 3},
+        {PNG_COLOR_TYPE_GRAY, {1, 2, 4, 8, 16, 0}, true, 1},
+        {PNG_COLOR_TYPE_GRAY_ALPHA, {8, 16, 0}, false, 1},
+        {PNG_COLOR_TYPE_PALETTE, {1, 2, 4, 8, 0}, true, 3},
+        {PNG_COLOR_TYPE_RGB, {8, 16, 0}, true, 3},
         {PNG_COLOR_TYPE_RGBA, {8, 16, 0}, false, 3},
     };
     u32 count = 0;
@@ -173,7 +179,8 @@ static void test_sizes(void **state)
     (void)state;
     static const struct {
         u32 width, height;
-    } SIZES[] = {{0, 1}, {1, 0}, {1u << 31, 1}, {UINT32_MAX, UINT32_MAX}, {16000000, 16000000}, {20000000, 1}};
+    } SIZES[] = {{0, 1}, {1, 0}, {1u << 31, 1}, {UINT32_MAX, UINT32_MAX}, {16000000, 16000000},
+                 {20000000, 1}};
     const Case c = {PNG_COLOR_TYPE_RGBA, 16, false, false, 3};
     for (size_t i = 0; i < sizeof SIZES / sizeof *SIZES; i++) {
         Bytes bytes = make_png(&c, false);

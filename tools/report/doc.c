@@ -70,7 +70,7 @@ void doc_set(json_t *into, const char *path, json_t *value)
 json_t *doc_spread(const f64 *values, size_t count)
 {
     return json_pack("{s:o, s:o}", "median", doc_real(statistics_median(values, count)), "mad",
-                     doc_real(statistics_mad(values, count)));
+                     doc_real(count > 1 ? statistics_mad(values, count) : (f64)NAN));
 }
 
 void doc_set_estimate(json_t *into, const char *path, Estimate estimate)

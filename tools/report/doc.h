@@ -29,7 +29,7 @@ json_t *doc_string(const char *text);
 // Puts value, which it takes over, at a path; the objects on the way are there. A value NULL is null.
 void doc_set(json_t *into, const char *path, json_t *value);
 
-// {"median":, "mad":}
+// {"median":, "mad":}; the latter is null below two values.
 json_t *doc_spread(const f64 *values, size_t count);
 
 // Sets PATH, PATH_low and PATH_high.

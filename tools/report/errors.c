@@ -7,6 +7,8 @@
 #include "heatmap.h"
 #include "metrics.h"
 
+enum { MAP_WIDTH = 380 }; // at least: the legend's
+
 static size_t value_count(const Image *image)
 {
     return (size_t)image->width * image->height * image->channels;
@@ -55,6 +57,7 @@ static bool add_metrics(const Image *reference, const Image *test, Distance *dis
     // The library changes no image that it is given.
     Pictures pictures = {.images = {(Image *)(uintptr_t)reference, (Image *)(uintptr_t)test},
                          .format = FORMAT_PFM,
+                         .linear = true,
                          .region = {0, 0, reference->width, reference->height}};
     Metrics metrics;
     if (!metrics_compute(&pictures, &(Limits){.fail = 0}, &metrics, error))
@@ -131,6 +134,25 @@ Oddities errors_oddities(const Image *image)
     return odd;
 }
 
+// Small pictures with pixels as blocks, so that the legend is not wider than the map.
+static bool write_enlarged(const HeatMap *map, const char *path, Error *error)
+{
+    const u32 factor = (MAP_WIDTH + map->width - 1) / map->width;
+    const size_t width = (size_t)map->width * factor, height = (size_t)map->height * factor;
+    f32 *values = factor > 1 ? malloc(width * height * sizeof *values) : NULL;
+    if (factor > 1 && !values)
+        return error_set(error, ERROR_MEMORY, "no memory for a map");
+    HeatMap larger = *map;
+    for (size_t y = 0; values && y < height; y++)
+        for (size_t x = 0; x < width; x++)
+            values[y * width + x] = map->values[y / factor * map->width + x / factor];
+    if (values)
+        larger = (HeatMap){(u32)width, (u32)height, values, map->scale, map->caption};
+    const bool drawn = heatmap_write(&larger, path, error);
+    free(values);
+    return drawn;
+}
+
 bool errors_draw(const Image *reference, const Image *test, const char *path, Error *error)
 {
     if (!alike(reference, test, error))
@@ -153,7 +175,7 @@ bool errors_draw(const Image *reference, const Image *test, const char *path, Er
     snprintf(caption, sizeof caption, "ERROR OF RADIANCE, AT MOST %.3G", most);
     const HeatMap map = {reference->width, reference->height, largest,
                          {1e-8, 1, true, {"1E-8", "1E-6", "1E-4", "1E-2", "1"}}, caption};
-    const bool drawn = heatmap_write(&map, path, error);
+    const bool drawn = write_enlarged(&map, path, error);
     free(largest);
     return drawn;
 }

@@ -36,9 +36,11 @@ static void put_finding(FILE *file, const json_t *rows, const char *scene)
     page_number(file, doc_number(exact, "rays.mrays_per_s"));
     fputs(" million rays a second", file);
     if (fast) {
-        fputs("; exact arithmetic costs ", file);
-        page_number(file, doc_number(exact, "rays.ns_per_ray") / doc_number(fast, "rays.ns_per_ray"));
-        fputs(" times fast arithmetic a ray", file);
+        fputs("; fast arithmetic takes ", file);
+        page_number(file, doc_number(fast, "time.kernel_to_exact.median"));
+        fputs(" &plusmn; ", file);
+        page_number(file, doc_number(fast, "time.kernel_to_exact.mad"));
+        fputs(" of the kernels' time of exact arithmetic", file);
     }
     if (isfinite(doc_number(exact, "error.r64.p99_abs"))) {
         fputs("; 99 of 100 values are within ", file);
@@ -55,7 +57,7 @@ static void put_finding(FILE *file, const json_t *rows, const char *scene)
         page_number(file, doc_number(exact, "error.rinf.rmse"));
         fputs(" RMSE at ", file);
         page_number(file, doc_number(exact, "run.spp.mean"));
-        fputs(" samples", file);
+        fputs(doc_number(exact, "run.spp.mean") == 1 ? " sample" : " samples", file);
     }
     fputs(".</li>\n", file);
 }

@@ -6,7 +6,7 @@
 
 static const char STYLE[] =
     "body{font:16px/1.5 system-ui,'Segoe UI',Helvetica,Arial,sans-serif;color:#1b1f24;background:#fff;"
-    "max-width:1120px;margin:0 auto;padding:24px 20px 80px}\n"
+    "max-width:1160px;margin:0 auto;padding:24px 20px 80px}\n"
     "h1{font-size:30px;line-height:1.2;margin:8px 0 4px}\n"
     "h2{font-size:24px;margin:56px 0 8px;padding-top:16px;border-top:3px solid #1b1f24}\n"
     "h3{font-size:18px;margin:32px 0 4px}\n"
@@ -14,16 +14,17 @@ static const char STYLE[] =
     "code{font:14px/1.4 ui-monospace,Consolas,'DejaVu Sans Mono',monospace;background:#f3f4f6;padding:1px 4px;"
     "border-radius:3px}\n"
     "table{border-collapse:collapse;margin:12px 0;font-size:14px;font-variant-numeric:tabular-nums}\n"
-    "th,td{padding:4px 10px;text-align:right;border-bottom:1px solid #e3e6ea;vertical-align:top}\n"
+    "th,td{padding:4px 10px;text-align:right;border-bottom:1px solid #e3e6ea;vertical-align:top;white-space:nowrap}\n"
     "th{border-bottom:2px solid #1b1f24;font-weight:600;vertical-align:bottom}\n"
-    "th:first-child,td:first-child,td.text{text-align:left}\ntd.text{max-width:60ch}\n"
+    "th:first-child,td:first-child,td.text{text-align:left}\ntd.text{max-width:60ch;white-space:normal}\n"
     "tr.first td{border-top:1px solid #8a929c}\n"
     "small{color:#57606a;font-size:12px}\n.wide{overflow-x:auto}\n"
     "figure{margin:12px 0;display:inline-block;vertical-align:top;max-width:100%}\n"
     "figcaption{font-size:13px;color:#424a53;max-width:70ch}\n"
     "img{max-width:100%;height:auto;border:1px solid #e3e6ea}\n"
     ".row{display:flex;flex-wrap:wrap;gap:18px}\n.row figure{flex:0 1 340px;margin:8px 0}\n"
-    ".note{background:#f6f8fa;border-left:4px solid #8a929c;padding:8px 14px;margin:14px 0}\n"
+    "figure.small img{min-width:min(480px,100%);image-rendering:pixelated}\n"
+    ".note{max-width:78ch;background:#f6f8fa;border-left:4px solid #8a929c;padding:8px 14px;margin:14px 0}\n"
     ".warn{border-left-color:#d55e00}\n.note p{margin:4px 0}\n";
 
 void page_begin(FILE *file, const char *title)
@@ -56,11 +57,11 @@ void page_text(FILE *file, const char *text)
 static void put_scientific(FILE *file, f64 value)
 {
     char text[32];
-    snprintf(text, sizeof text, "%.2e", value);
+    snprintf(text, sizeof text, "%.2e", fabs(value));
     const char *e = strchr(text, 'e');
     int power = 0;
     sscanf(e + 1, "%d", &power);
-    fprintf(file, "%.*s&thinsp;&times;&thinsp;10<sup>%s%d</sup>", (int)(e - text), text, power < 0 ? "&minus;" : "",
+    fprintf(file, "%s%.*s&thinsp;&times;&thinsp;10<sup>%s%d</sup>", value < 0 ? "&minus;" : "", (int)(e - text), text, power < 0 ? "&minus;" : "",
             power < 0 ? -power : power);
 }
 

@@ -58,10 +58,11 @@ static void put_times(FILE *file, const json_t *rows, const char *scene)
 {
     fputs("<h3>Time, rays, memory</h3><p>Seconds from the start of the process to its end, and of two of its stages. "
           "Cold: the drivers' caches of compiled kernels are empty. Each figure is a median, below it the median "
-          "distance from it (MAD).</p>\n",
+          "distance from it (MAD). <i>Kernels, of exact</i>: kernel seconds over those of mode exact in the same round, at "
+          "the most samples measured, where noise weighs least.</p>\n",
           file);
     page_table(file, "mode|warm run, s|cold run, s|compile<br>cold, s|compile<br>warm, s|kernels<br>warm, s|Mrays/s|"
-                     "ns/ray|device<br>peak, MiB|host<br>peak, MiB");
+                     "ns/ray|kernels, of<br>exact|device<br>peak, MiB|host<br>peak, MiB");
     size_t i;
     json_t *row;
     json_array_foreach(rows, i, row) {
@@ -70,7 +71,7 @@ static void put_times(FILE *file, const json_t *rows, const char *scene)
         fputs("<tr>", file);
         page_cell_text(file, doc_text(row, "run.mode"));
         if (!is_available(row)) {
-            fputs("<td class=\"text\" colspan=\"9\">not available: ", file);
+            fputs("<td class=\"text\" colspan=\"10\">not available: ", file);
             page_text(file, doc_text(row, "run.unavailable"));
             fputs("</td></tr>\n", file);
             continue;
@@ -82,6 +83,7 @@ static void put_times(FILE *file, const json_t *rows, const char *scene)
         put_spread(file, row, "time.warm.kernel_s");
         page_cell(file, doc_number(row, "rays.mrays_per_s"));
         page_cell(file, doc_number(row, "rays.ns_per_ray"));
+        put_spread(file, row, "time.kernel_to_exact");
         page_cell(file, doc_number(row, "memory.device_peak_bytes") / MIB);
         page_cell(file, doc_number(row, "memory.host_peak_bytes") / MIB);
         fputs("</tr>\n", file);
@@ -140,7 +142,7 @@ static void put_arithmetic(FILE *file, const json_t *rows, const char *scene)
           "which rounding decides which object, which shadow or which square of a checker they see. Those make the "
           "largest differences; the 99th percentile tells of all others. Radiance 1 is white.</p>\n",
           file);
-    page_table(file, "mode|samples|max ulp|max |p99 |RMSE|values that<br>differ, %|pixels with<br>another object|"
+    page_table(file, "mode|samples|max ulp|max error|p99 error|RMSE|values that<br>differ, %|pixels with<br>another object|"
                      "of pixels");
     size_t i;
     json_t *row;
@@ -269,7 +271,7 @@ static bool put_picture(FILE *file, const Session *session, const json_t *row, c
     const char *caption = text_format(session->arena, "%s: %s", mode, what);
     if (!place || !caption)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
-    fputs("<figure>", file);
+    fprintf(file, "<figure%s>", doc_number(row, "run.width") < 480 ? " class=\"small\"" : "");
     if (!page_image(file, place, "image/png", caption, error))
         return false;
     fputs("<figcaption>", file);
@@ -311,14 +313,26 @@ static void put_value(FILE *file, const json_t *value)
         fputs("&ndash;", file);
 }
 
+// Whether any mode says something of it.
+static bool is_known(const json_t *rows, const char *scene, const char *group, const char *key)
+{
+    size_t i;
+    json_t *row;
+    json_array_foreach(rows, i, row) {
+        const json_t *value = json_object_get(json_object_get(row, group), key);
+        if (is_of(row, scene) && is_available(row) && value && !json_is_null(value))
+            return true;
+    }
+    return false;
+}
+
 // A group of a row whose members are numbers and texts, as a table with a column a mode.
 static void put_group(FILE *file, const json_t *rows, const char *scene, const char *group)
 {
     const char *key;
     json_t *value, *row, *keys = json_object();
     size_t i;
-    page_table(file, "");
-    fputs("<tr><th></th>", file);
+    fputs("<div class=\"wide\"><table><tr><th></th>", file);
     json_array_foreach(rows, i, row) {
         if (!is_of(row, scene) || !is_available(row))
             continue;
@@ -329,7 +343,7 @@ static void put_group(FILE *file, const json_t *rows, const char *scene, const c
     }
     fputs("</tr>\n", file);
     json_object_foreach(keys, key, value) {
-        if (json_is_object(value) || json_is_array(value))
+        if (json_is_object(value) || json_is_array(value) || !is_known(rows, scene, group, key))
             continue;
         fputs("<tr><td><code>", file);
         page_text(file, key);
@@ -337,7 +351,7 @@ static void put_group(FILE *file, const json_t *rows, const char *scene, const c
         json_array_foreach(rows, i, row) {
             if (!is_of(row, scene) || !is_available(row))
                 continue;
-            fputs("<td>", file);
+            fputs("<td class=\"text\">", file);
             put_value(file, json_object_get(json_object_get(row, group), key));
             fputs("</td>", file);
         }
@@ -357,7 +371,7 @@ static void put_identity(FILE *file, const json_t *row)
     page_number(file, doc_number(row, "run.height"));
     fputs(" pixels, ", file);
     page_number(file, doc_number(row, "run.spp.mean"));
-    fputs(" samples a pixel where nothing else is said.", file);
+    fprintf(file, " sample%s a pixel where nothing else is said.", doc_number(row, "run.spp.mean") == 1 ? "" : "s");
     for (const char *const *key = KEYS; *key; key++) {
         const char *text = json_string_value(json_object_get(json_object_get(row, "run"), *key));
         if (!text)
@@ -418,7 +432,7 @@ bool html_scene_write(FILE *file, const Session *session, const json_t *report, 
         !put_maps(file, session, rows, scene, error))
         return false;
     fputs("<h3>Error budget</h3><p>What clrt states of each picture, beside the largest arithmetic error measured "
-          "above (<code>e_arith</code>). A dash: not stated.</p>\n",
+          "above (<code>e_arith</code>). What is not listed, or has a dash, is not stated.</p>\n",
           file);
     put_group(file, rows, scene, "budget");
     fputs("<h3>Health</h3>\n", file);

@@ -191,7 +191,7 @@ static bool make_reference(Job *job, Error *error)
                 math);
     if (!reference_make(&job->session->runner, &shot, samples, &job->reference, error))
         return false;
-    job->reference_json = reference_to_json(&job->reference, math, samples * REFERENCE_PARTS);
+    job->reference_json = reference_to_json(&job->reference, math, samples);
     const char *mean = text_format(job->session->arena, "%s/reference.pfm", job->folder);
     const char *variance = text_format(job->session->arena, "%s/reference_variance.pfm", job->folder);
     doc_set(job->reference_json, "scene", doc_string(shot.scene));
@@ -403,7 +403,7 @@ static void set_spp(json_t *row, u32 samples)
     doc_set(row, "run.spp.max", doc_whole(samples));
 }
 
-static void finish_row(const Job *job, const Candidate *candidate)
+static void finish_row(Job *job, const Candidate *candidate)
 {
     json_t *row = candidate->row;
     doc_set(row, "time.cold_runs", doc_whole(candidate->cold.count));
@@ -418,6 +418,11 @@ static void finish_row(const Job *job, const Candidate *candidate)
     series_set_efficiency(row, own);
     if (json_is_null(doc_at(row, "budget.e_arith")))
         doc_set(row, "budget.e_arith", doc_real(doc_number(row, "error.r64.max_abs")));
+    const Candidate *exact = find_candidate(job, "exact");
+    if (exact) {
+        doc_set(row, "time.kernel_to_exact", series_ratio(&candidate->warm[job->count - 1], &exact->warm[job->count - 1]));
+        doc_set(row, "time.kernel_to_exact_spp", doc_whole(job->counts[job->count - 1]));
+    }
     const f64 rays = doc_number(row, "rays.total"), seconds = doc_number(row, "time.warm.kernel_s.median");
     doc_set(row, "rays.mrays_per_s", doc_real(rays / seconds * 1e-6));
     doc_set(row, "rays.ns_per_ray", doc_real(seconds / rays * 1e9));

@@ -10,6 +10,43 @@
 
 enum { POINTS_MAX = 1024 };
 
+// ---- logarithmic axes ------------------------------------------------------------------------
+
+typedef struct Range {
+    f64 low, high; // low above high: of nothing
+} Range;
+
+static const Range NO_RANGE = {INFINITY, 0};
+
+static void widen(Range *range, f64 value)
+{
+    if (!(value > 0) || isinf(value))
+        return;
+    range->low = fmin(range->low, value);
+    range->high = fmax(range->high, value);
+}
+
+// An axis from below the lowest to above the highest value, with labels at 1, 2 and 5 of each power of ten, or at
+// the powers alone where those are many.
+static void put_axis(FILE *script, char axis, Range range, f64 margin)
+{
+    if (!(range.low <= range.high))
+        return;
+    const f64 low = range.low / margin, high = range.high * margin;
+    const bool fine = high / low < 500;
+    fprintf(script, "set %crange [%.6g:%.6g]\nset %ctics (", axis, low, high, axis);
+    bool first = true;
+    for (int power = (int)floor(log10(low)); power <= (int)ceil(log10(high)); power++)
+        for (int i = 0; i < (fine ? 3 : 1); i++) {
+            const f64 at = (i == 0 ? 1 : i == 1 ? 2 : 5) * pow(10, power);
+            if (at < low || at > high)
+                continue;
+            fprintf(script, "%s\"%g\" %.6g", first ? "" : ", ", at, at);
+            first = false;
+        }
+    fputs(")\n", script);
+}
+
 // ---- error against time ---------------------------------------------------------------------
 
 static bool is_of(const json_t *row, const char *scene)
@@ -49,15 +86,26 @@ static void put_convergence(FILE *data, const json_t *row)
 // A panel with all modes against the seconds of a column, and a line of slope -1/2 through the first point.
 static void put_panel(FILE *script, const json_t *rows, const char *scene, int column, const char *what)
 {
+    size_t i, k;
+    json_t *row, *point;
+    Range seconds = NO_RANGE, errors = NO_RANGE;
+    json_array_foreach(rows, i, row)
+        json_array_foreach(json_object_get(row, "convergence"), k, point)
+            if (is_of(row, scene) && doc_number(point, "rmse") > 0) {
+                widen(&seconds, doc_number(point, column == 1 ? "wall_s.median" : "kernel_s.median"));
+                widen(&errors, doc_number(point, "rmse"));
+                widen(&errors, doc_number(point, "rmse_low"));
+                widen(&errors, doc_number(point, "rmse_high"));
+            }
+    put_axis(script, 'x', seconds, 1.4);
+    put_axis(script, 'y', errors, 1.4);
     fprintf(script,
             "set title '%s'\nset xlabel 'seconds (median)'\nset ylabel 'RMSE of radiance'\n"
             "stats data using (log($%d)):(log($3)) index 0 nooutput name 'A'\n"
             "half(x) = exp(A_max_y) * (x / exp(A_min_x))**-0.5\nplot half(x) lc rgb '#999999' lw 1.5 dt 2 title "
             "'slope -1/2'",
             what, column);
-    size_t i;
     int index = 0;
-    json_t *row;
     json_array_foreach(rows, i, row)
         if (is_of(row, scene) && has_error(row)) {
             fprintf(script, ", data index %d using %d:3:4:5 with yerrorlines lt %d title '%s'", index, column,
@@ -82,9 +130,7 @@ static bool draw_convergence(const Session *session, json_t *report, const char 
     json_array_foreach(rows, i, row)
         if (is_of(row, scene) && has_error(row))
             put_convergence(plot.data, row);
-    fputs("set multiplot layout 1,2\nset logscale xy\nset format y '10^{%T}'\nset format xy '%g'\n"
-          "set offsets graph 0.05, graph 0.05, 0, 0\n",
-          plot.script);
+    fputs("set multiplot layout 1,2\nset logscale xy\n", plot.script);
     put_panel(plot.script, rows, scene, 1, "whole run, from the start of the process to its end");
     put_panel(plot.script, rows, scene, 2, "kernels alone");
     fputs("unset multiplot\n", plot.script);
@@ -119,11 +165,12 @@ static void put_front(FILE *data, Point *points, size_t count)
 }
 
 // A block a mode, one of the peers if there are any, and at last the front; the number of blocks of modes.
-static int put_pareto(FILE *data, const json_t *report, const char *scene, bool peers)
+static int put_pareto(Plot *plot, const json_t *report, const char *scene, bool peers)
 {
     Point points[POINTS_MAX];
     size_t count = 0, i, k;
     int blocks = 0;
+    FILE *data = plot->data;
     json_t *row, *point;
     json_array_foreach(json_object_get(report, "rows"), i, row) {
         if (!is_of(row, scene) || !has_error(row))
@@ -147,6 +194,13 @@ static int put_pareto(FILE *data, const json_t *report, const char *scene, bool 
             points[count++] = at;
     }
     fputs(peers ? "\n\n" : "", data);
+    Range seconds = NO_RANGE, errors = NO_RANGE;
+    for (i = 0; i < count; i++) {
+        widen(&seconds, points[i].seconds);
+        widen(&errors, points[i].rmse);
+    }
+    put_axis(plot->script, 'x', seconds, 1.3);
+    put_axis(plot->script, 'y', errors, 1.3);
     put_front(data, points, count);
     return blocks;
 }
@@ -161,10 +215,9 @@ static bool draw_pareto(const Session *session, json_t *report, const char *scen
     if (!plot_open(&plot, session, name, 860, 460, error))
         return false;
     fputs("# seconds rmse samples; the last block is the front\n", plot.data);
-    const int blocks = put_pareto(plot.data, report, scene, peers);
+    const int blocks = put_pareto(&plot, report, scene, peers);
     fprintf(plot.script,
-            "set logscale xy\nset format xy '%%g'\nset xlabel 'seconds of the whole run (median)'\n"
-            "set ylabel 'RMSE of radiance'\nset offsets graph 0.05, graph 0.1, graph 0.05, graph 0.05\n"
+            "set logscale xy\nset xlabel 'seconds of the whole run (median)'\nset ylabel 'RMSE of radiance'\n"
             "plot data index %d using 1:2 with steps lc rgb '#999999' lw 2 title 'front: nothing beats it in both'",
             blocks + peers);
     size_t i;
@@ -237,14 +290,14 @@ static bool draw_stages(const Session *session, json_t *report, const char *scen
                 put_stages(plot.data, row, HEATS[h]);
         fputs("\n\n", plot.data);
     }
-    fputs("set style data histograms\nset style histogram rowstacked\nset style fill solid 0.85 border rgb 'white'\n"
+    fputs("set style data histograms\nset style histogram rowstacked\nset style fill solid 1 border rgb 'white'\n"
           "set boxwidth 0.6\nset ylabel 'seconds (median)'\nset yrange [0:*]\nset xtics rotate by -20\n"
-          "set multiplot layout 1,2\nset key off\n",
+          "set multiplot\nset key off\n",
           plot.script);
     for (int h = 0; h < 2; h++) {
-        fprintf(plot.script, "set title '%s'\n%splot ",
-                h ? "warm: kernels come from the cache" : "cold: kernel caches are empty",
-                h ? "set key outside right vertical reverse Left invert\n" : "");
+        fprintf(plot.script, "set title '%s'\nset lmargin at screen %g\nset rmargin at screen %g\n%splot ",
+                h ? "warm: kernels come from the cache" : "cold: kernel caches are empty", h ? 0.44 : 0.06,
+                h ? 0.74 : 0.36, h ? "set key at screen 0.98, screen 0.85 vertical reverse Left invert\n" : "");
         for (size_t b = 0; b < BAR_COUNT; b++)
             fprintf(plot.script, "%sdata index %d using %zu:xtic(1) lt %zu title '%s'", b ? ", " : "", h, b + 2,
                     b == 0 ? 8 : b, BARS[b].title);

@@ -67,9 +67,10 @@ json_t *row_create(const char *scene, const Mode *mode)
     static const char *const HEALTH[] = {"nan_values", "inf_values", "negative_values", "clamped_samples", "leaks",
                                          "image_hash", "self_test", NULL};
     static const char *const FILES[] = {"picture", "map_r64", "map_rinf", NULL};
-    json_t *row = json_pack("{s:s, s:o, s:{s:i, s:i, s:o, s:o}, s:o, s:o, s:o, s:o, s:[]}", "schema", ROW_SCHEMA,
+    json_t *row = json_pack("{s:s, s:o, s:{s:i, s:i, s:o, s:o, s:{s:n, s:n}, s:n}, s:o, s:o, s:o, s:o, s:[]}", "schema", ROW_SCHEMA,
                             "run", run_object(scene, mode), "time", "cold_runs", 0, "warm_runs", 0, "cold",
-                            stages_object(), "warm", stages_object(), "rays", null_object(RAYS), "memory",
+                            stages_object(), "warm", stages_object(), "kernel_to_exact", "median", "mad",
+                            "kernel_to_exact_spp", "rays", null_object(RAYS), "memory",
                             null_object(MEMORY), "error", error_object(), "efficiency", null_object(EFFICIENCY),
                             "convergence");
     json_object_set_new(row, "budget", null_object(BUDGET));

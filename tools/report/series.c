@@ -2,10 +2,11 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "doc.h"
 
-enum { POINTS_MAX = SAMPLE_COUNTS_MAX + 1 };
+enum { POINTS_MAX = SAMPLE_COUNTS_MAX + 1, RATIOS_MAX = 1000 };
 
 static const f64 TARGET_RMSE = 0.01;
 
@@ -37,6 +38,19 @@ json_t *series_times(const Series *series)
         json_object_set_new(times, ROW_STAGES[i].key, doc_spread(series->stages[i], told ? series->count : 0));
     }
     return times;
+}
+
+json_t *series_ratio(const Series *series, const Series *base)
+{
+    f64 ratios[RATIOS_MAX];
+    size_t count = 0;
+    for (u32 i = 0; i < ROW_STAGE_COUNT; i++) {
+        if (strcmp(ROW_STAGES[i].key, "kernel_s") != 0)
+            continue;
+        for (; count < series->count && count < base->count && count < RATIOS_MAX; count++)
+            ratios[count] = series->stages[i][count] / base->stages[i][count];
+    }
+    return doc_spread(ratios, count);
 }
 
 // ---- a point --------------------------------------------------------------------------------

@@ -27,6 +27,9 @@ void series_add(Series *series, const json_t *stats, f64 wall);
 // Median and MAD of the stages: the object of time.cold and time.warm.
 json_t *series_times(const Series *series);
 
+// Kernel seconds of `series` over those of `base`, run by run, which took turns: median and MAD.
+json_t *series_ratio(const Series *series, const Series *base);
+
 // A point of the convergence; without a reference that is good enough its errors are null and reason says why.
 json_t *series_point(const Series *series, const Reference *reference);
 

@@ -102,7 +102,7 @@ static Placed random_place(const Family *family, Placing placing, uint64_t *stat
     if (placing == PLACING_PLAIN) // an ellipsoid is a sphere under some map
         p.map = family->primitive == PRIMITIVE_ELLIPSOID ? affine_scale(factors) : affine_identity();
     const double away = scale * (placing == PLACING_PLAIN ? random_in(state, 0, 1.7)
-                                 : placing == PLACING_FAR ? random_scale(state, 3, 6)
+                                 : placing == PLACING_FAR ? random_scale(state, 3, 5)
                                                           : random_scale(state, 0, 3));
     if (family->giant) {
         // The surface passes the origin at a small share of the radius.

@@ -29,7 +29,7 @@ extern const Family shape_families[FAMILY_COUNT];
 typedef enum Placing {
     PLACING_ANY,     // any map, from millionths to millions in size, up to 3000 sizes from the origin
     PLACING_PLAIN,   // no map but a shift of up to five sizes
-    PLACING_FAR,     // any map, a thousand to a million sizes from the origin
+    PLACING_FAR,     // any map, three thousand to three hundred thousand sizes from the origin
     PLACING_EXTREME, // from 1e-9 to 1e9 in size, squeezed along an axis by up to 1e3
     PLACING_COUNT
 } Placing;
