@@ -30,6 +30,23 @@ static bool add(const MaterialContext *context, Material material, const char *n
     return true;
 }
 
+// Adds an image texture; *index becomes its index.
+static bool add_texture(const MaterialContext *context, Texture texture, i32 *index)
+{
+    Scene *scene = context->scene;
+    Texture *textures = arena_grow(context->arena, scene->textures, scene->texture_count, sizeof *textures);
+    if (!textures || !texture.file)
+        return false;
+    texture.kind = TEXTURE_IMAGE;
+    texture.at = texture.file_at = context->at;
+    texture.name = texture.file;
+    texture.scale[0] = texture.scale[1] = 1;
+    scene->textures = textures;
+    *index = (i32)scene->texture_count;
+    textures[scene->texture_count++] = texture;
+    return true;
+}
+
 // ---- OBJ and MTL ----------------------------------------------------------------------------
 
 // The libraries of an OBJ.
@@ -41,9 +58,6 @@ typedef struct Libraries {
     const MtlMaterial **materials;    // one a name
     u32 *owners;                      // one a name: index of the library
     bool complete;                    // every library was read
-    u32 textured;                     // materials with textures that were added
-    const MtlMaterial *first_textured;
-    const char *first_textured_path;
 } Libraries;
 
 static bool index_library(Libraries *libraries, u32 library)
@@ -106,6 +120,12 @@ static Material phong_of(const MtlMaterial *mtl)
     return material;
 }
 
+// The texture of a file that a library names, where it names one.
+static bool add_map(const MaterialContext *context, const char *library, const char *name, i32 *index)
+{
+    return !name || add_texture(context, (Texture){.file = path_beside(context->arena, library, name)}, index);
+}
+
 static bool add_named(const MaterialContext *context, const ObjFile *obj, u32 i, Libraries *libraries,
                       i32 *index)
 {
@@ -119,28 +139,13 @@ static bool add_named(const MaterialContext *context, const ObjFile *obj, u32 i,
         return true;
     }
     const MtlMaterial *mtl = libraries->materials[found];
-    if ((mtl->map_kd || mtl->map_bump) && libraries->textured++ == 0) {
-        libraries->first_textured = mtl;
-        libraries->first_textured_path = libraries->paths[libraries->owners[found]];
-    }
-    return add(context, phong_of(mtl), mtl->name, index);
-}
-
-static void warn_of_textures(const MaterialContext *context, const Libraries *libraries)
-{
-    const MtlMaterial *mtl = libraries->first_textured;
-    if (!mtl)
-        return;
-    const char *what = !mtl->map_kd     ? "the normal map"
-                       : !mtl->map_bump ? "map_Kd"
-                                        : "map_Kd and the normal map";
-    const u32 line = mtl->map_kd ? mtl->map_kd_line : mtl->map_bump_line;
-    char others[64] = "";
-    if (libraries->textured > 1)
-        snprintf(others, sizeof others, ", and those of %u more", libraries->textured - 1);
-    diagnostics_add(context->diagnostics, SEVERITY_WARNING, libraries->first_textured_path, line, 1, 1, NULL,
-                    "image textures are not supported yet; left out: %s of material '%s'%s", what, mtl->name,
-                    others);
+    const char *path = libraries->paths[libraries->owners[found]];
+    Material material = phong_of(mtl);
+    if (!add_map(context, path, mtl->map_kd, &material.diffuse.texture) ||
+        !add_map(context, path, mtl->map_bump, &material.normal_map))
+        return false;
+    material.ambient = material.diffuse;
+    return add(context, material, mtl->name, index);
 }
 
 static bool add_all(const MaterialContext *context, const ObjFile *obj, Libraries *libraries, i32 *indices,
@@ -154,7 +159,6 @@ static bool add_all(const MaterialContext *context, const ObjFile *obj, Librarie
         if (!add_named(context, obj, i, libraries, &indices[i]))
             return no_memory(error);
     }
-    warn_of_textures(context, libraries);
     return true;
 }
 
@@ -175,23 +179,78 @@ bool materials_add_obj(const MaterialContext *context, const ObjFile *obj, i32 *
 
 // ---- imported files -------------------------------------------------------------------------
 
+// The pictures within a file: copies that live as long as the scene.
+static bool copy_images(const MaterialContext *context, const ImportFile *file, const void **copies)
+{
+    for (u32 i = 0; i < file->image_count; ++i) {
+        const ImportImage *image = &file->images[i];
+        void *copy = image->bytes ? arena_alloc(context->arena, image->size, 1) : NULL;
+        if (image->bytes && !copy)
+            return false;
+        if (copy)
+            memcpy(copy, image->bytes, image->size);
+        copies[i] = copy;
+    }
+    return true;
+}
+
+// What the materials of a file need to add their textures.
+typedef struct Import {
+    const MaterialContext *context;
+    const ImportFile *file;
+    const void **images; // copies
+} Import;
+
+// The texture of a map, where there is one; channel: what a number reads.
+static bool add_import_map(const Import *import, const ImportTexture *map, u32 channel, i32 *index)
+{
+    const MaterialContext *context = import->context;
+    Texture texture = {.channel = channel, .filter = map->nearest ? TEXTURE_NEAREST : TEXTURE_BILINEAR};
+    if (map->file) {
+        texture.file = path_beside(context->arena, context->path, map->file);
+        return add_texture(context, texture, index);
+    }
+    if (map->image < 0 || !import->images[map->image])
+        return true;
+    texture.file = context->path;
+    texture.content = import->images[map->image];
+    texture.content_size = import->file->images[map->image].size;
+    return add_texture(context, texture, index);
+}
+
+static bool add_pbr(const Import *import, const ImportMaterial *from, i32 *index)
+{
+    const ImportTexture *maps = from->maps;
+    Material material = material_default();
+    material.kind = MATERIAL_PBR;
+    material.base_color.color = from->base_color;
+    material.emission.color = from->emission;
+    material.metallic.value = from->metallic;
+    material.roughness.value = from->roughness;
+    material.pbr_transmit = from->transmit;
+    material.ior = from->ior;
+    return add_import_map(import, &maps[IMPORT_BASE_COLOR], 0, &material.base_color.texture) &&
+           add_import_map(import, &maps[IMPORT_METALLIC_ROUGHNESS], 1, &material.roughness.texture) &&
+           add_import_map(import, &maps[IMPORT_METALLIC_ROUGHNESS], 2, &material.metallic.texture) &&
+           add_import_map(import, &maps[IMPORT_NORMAL], 0, &material.normal_map) &&
+           add_import_map(import, &maps[IMPORT_OCCLUSION], 0, &material.occlusion.texture) &&
+           add_import_map(import, &maps[IMPORT_EMISSION], 0, &material.emission.texture) &&
+           add(import->context, material, from->name, index);
+}
+
 bool materials_add_import(const MaterialContext *context, const ImportFile *file, i32 *indices, Error *error)
 {
-    bool textured = false;
-    for (u32 i = 0; i < file->material_count; ++i) {
-        const ImportMaterial *from = &file->materials[i];
-        Material material = material_default();
-        material.diffuse.color = from->base_color;
-        material.ambient = material.diffuse;
-        material.emission.color = from->emission;
-        textured |= from->textured;
-        if (!add(context, material, from->name, &indices[i]))
-            return no_memory(error);
+    Import import = {context, file, calloc(file->image_count + (size_t)1, sizeof *import.images)};
+    bool ok = import.images && copy_images(context, file, import.images), inexact = false;
+    for (u32 i = 0; ok && i < file->material_count; ++i) {
+        inexact |= file->materials[i].inexact;
+        ok = add_pbr(&import, &file->materials[i], &indices[i]);
     }
-    if (file->material_count > 0)
+    free(import.images);
+    if (ok && inexact)
         scene_report(context->scene, context->diagnostics, SEVERITY_WARNING, context->at,
-                     "pbr materials are not supported yet: base colour and emission of those of '%s' serve "
-                     "as phong%s",
-                     context->path, textured ? ", image textures are left out" : "");
-    return true;
+                     "what '%s' says of its textures beside their files is left out: transforms, clamping, "
+                     "strength, second coordinates",
+                     context->path);
+    return ok || no_memory(error);
 }

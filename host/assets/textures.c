@@ -3,9 +3,15 @@
 #include "assets/named_files.h"
 #include "scene/report.h"
 
+// Of a file of its own.
 static bool is_image(const Texture *texture)
 {
-    return texture->kind == TEXTURE_IMAGE;
+    return texture->kind == TEXTURE_IMAGE && !texture->content;
+}
+
+static bool is_within(const Texture *texture)
+{
+    return texture->kind == TEXTURE_IMAGE && texture->content;
 }
 
 static bool list_files(NamedFiles *named, const Scene *scene)
@@ -19,6 +25,16 @@ static bool list_files(NamedFiles *named, const Scene *scene)
     return !environment->present || named_files_add(named, environment->file, environment->file_at);
 }
 
+static void repair(const NamedFiles *named, const char *path, SourcePos at, Bitmap *bitmap)
+{
+    const u64 bad = bitmap_repair(bitmap);
+    if (bad > 0)
+        scene_report(named->scene, named->diagnostics, SEVERITY_WARNING, at,
+                     "'%s' has %llu value%s below 0, infinite or not a number; these are taken as 0, or as the "
+                     "largest there is",
+                     path, (unsigned long long)bad, bad > 1 ? "s" : "");
+}
+
 // Leaves *bitmap zeroed where the file cannot be used.
 static void read_file(const NamedFiles *named, const NamedFile *file, Bitmap *bitmap)
 {
@@ -29,12 +45,7 @@ static void read_file(const NamedFiles *named, const NamedFile *file, Bitmap *bi
         named_file_refuse(named, file, "read", error.text);
         return;
     }
-    const u64 bad = bitmap_repair(bitmap);
-    if (bad > 0)
-        scene_report(named->scene, named->diagnostics, SEVERITY_WARNING, file->at,
-                     "'%s' has %llu value%s below 0, infinite or not a number; these are taken as 0, or as "
-                     "the largest there is",
-                     file->path, (unsigned long long)bad, bad > 1 ? "s" : "");
+    repair(named, file->path, file->at, bitmap);
 }
 
 static const Bitmap *find_bitmap(const NamedFiles *named, const char *path)
@@ -54,12 +65,36 @@ static void point_environment(const NamedFiles *named, Environment *environment)
                  environment->file);
 }
 
+// The picture that a texture finds within another file, decoded once for all that share it.
+static void read_within(const NamedFiles *named, Scene *scene, u32 index)
+{
+    Texture *texture = &scene->textures[index];
+    Error error;
+    for (u32 i = 0; i < index; ++i) {
+        if (scene->textures[i].content == texture->content) {
+            texture->bitmap = scene->textures[i].bitmap;
+            return;
+        }
+    }
+    Bitmap *bitmap = &scene->bitmaps[scene->bitmap_count++];
+    if (bitmap_decode(texture->content, texture->content_size, bitmap, &error)) {
+        repair(named, texture->file, texture->file_at, bitmap);
+        texture->bitmap = bitmap;
+        return;
+    }
+    scene_report(scene, named->diagnostics, SEVERITY_ERROR, texture->file_at, "cannot read an image in '%s': %s",
+                 texture->file, error.text);
+}
+
 static bool load(NamedFiles *named, Scene *scene, Arena *arena)
 {
+    u32 within = 0;
     scene->bitmap_count = 0;
     if (!named->arena || !list_files(named, scene))
         return false;
-    scene->bitmaps = arena_alloc(arena, named->count, sizeof *scene->bitmaps);
+    for (u32 i = 0; i < scene->texture_count; ++i)
+        within += is_within(&scene->textures[i]);
+    scene->bitmaps = arena_alloc(arena, (size_t)named->count + within, sizeof *scene->bitmaps);
     if (!scene->bitmaps)
         return false;
     scene->bitmap_count = named->count;
@@ -68,6 +103,8 @@ static bool load(NamedFiles *named, Scene *scene, Arena *arena)
     for (u32 i = 0; i < scene->texture_count; ++i) {
         if (is_image(&scene->textures[i]))
             scene->textures[i].bitmap = find_bitmap(named, scene->textures[i].file);
+        else if (is_within(&scene->textures[i]))
+            read_within(named, scene, i);
     }
     if (scene->environment.present)
         point_environment(named, &scene->environment);

@@ -2,7 +2,8 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
+
+#include "budget/nearest.h"
 
 // For what rounding adds to radiance on a device.
 #define MARGIN (1 + 1e-5)
@@ -37,8 +38,6 @@ static const char *unknown_setting(const Scene *scene)
         const Light *light = &scene->lights[i];
         if (light->kind != LIGHT_POINT && light->kind != LIGHT_DIRECTIONAL && light->kind != LIGHT_SPOT)
             return "area lights";
-        if (light->kind != LIGHT_DIRECTIONAL && light->attenuation[0] <= 0)
-            return "a light without limit near its position (KC 0)";
     }
     return NULL;
 }
@@ -81,14 +80,28 @@ static f64 times(f64 a, f64 b)
     return a == 0 || b == 0 ? 0 : a * b;
 }
 
-static f64 greatest_irradiance(const Scene *scene, u32 c)
+// Gain of each light where it is greatest; NULL without memory.
+static f64 *greatest_gains(const Scene *scene, const Layout *layout)
+{
+    f64 *gains = calloc((size_t)scene->light_count + 1, sizeof *gains);
+    for (u32 i = 0; gains && i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        const f64 *k = light->attenuation;
+        gains[i] = 1;
+        if (light->kind == LIGHT_DIRECTIONAL)
+            continue;
+        const f64 d = nearest_surface(layout, vec_sub(light->position, scene->camera.position));
+        const f64 fall = isinf(d) ? INFINITY : k[0] + k[1] * d + k[2] * d * d;
+        gains[i] = fall > 0 ? 1 / fall : INFINITY;
+    }
+    return gains;
+}
+
+static f64 greatest_irradiance(const Scene *scene, const f64 *gains, u32 c)
 {
     f64 sum = 0;
-    for (u32 i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        const f64 nearest = light->kind == LIGHT_DIRECTIONAL ? 1 : light->attenuation[0];
-        sum += channel(light->intensity, c) / nearest;
-    }
+    for (u32 i = 0; i < scene->light_count; i++)
+        sum += times(channel(scene->lights[i].intensity, c), gains ? gains[i] : INFINITY);
     return sum;
 }
 
@@ -117,18 +130,18 @@ static bool is_phong(const Material *material)
 }
 
 // Light may pass surfaces that make it stronger: its irradiance then has no bound.
-static f64 irradiance_of(const Scene *scene, const bool *used, u32 c)
+static f64 irradiance_of(const Scene *scene, const bool *used, const f64 *gains, u32 c)
 {
     for (u32 i = 0; scene->render.shadows && i < scene->material_count; i++)
         if ((!used || used[i]) && channel(scene->materials[i].transmit, c) > 1 && scene->light_count > 0)
             return INFINITY;
-    return greatest_irradiance(scene, c);
+    return greatest_irradiance(scene, gains, c);
 }
 
 // L(depth), or its limit; limit: where no material passes on all, each meets its own at direct / (1 - total).
-static Channel bound_channel(const Scene *scene, const bool *used, u32 c)
+static Channel bound_channel(const Scene *scene, const bool *used, const f64 *gains, u32 c)
 {
-    const f64 background = channel(scene->background, c), irradiance = irradiance_of(scene, used, c);
+    const f64 background = channel(scene->background, c), irradiance = irradiance_of(scene, used, gains, c);
     Channel bound = {.radiance = background, .limit = background, .least = INFINITY};
     for (u32 depth = 0; depth <= scene->render.max_depth; depth++) {
         const f64 before = depth ? bound.radiance : 0;
@@ -182,11 +195,12 @@ SceneBounds scene_bounds(const Scene *scene, const Layout *layout)
 {
     SceneBounds bounds = {.unbounded = unknown_setting(scene)};
     bool *used = used_materials(scene, layout);
+    f64 *gains = greatest_gains(scene, layout);
     const RenderSettings *render = &scene->render;
     const bool branching = branches(scene, used);
     bool cut = render->max_depth > 0 && render->min_weight > 0;
     for (u32 c = 0; c < 3; c++) {
-        Channel bound = bound_channel(scene, used, c);
+        Channel bound = bound_channel(scene, used, gains, c);
         cut = cut && !(pow(bound.least, render->max_depth) >= render->min_weight * MARGIN);
         if (bounds.unbounded)
             bound.radiance = bound.limit = bound.before = INFINITY;
@@ -194,10 +208,11 @@ SceneBounds scene_bounds(const Scene *scene, const Layout *layout)
         bounds.depth = fmax(bounds.depth, depth_bound(&bound, render->max_depth));
         bounds.min_weight = fmax(bounds.min_weight, weight_bound(&bound, render, branching));
         if (!bounds.unbounded && !isfinite(bound.radiance))
-            bounds.unbounded = "materials that are not bounded";
+            bounds.unbounded = "a light at a surface, or a material that makes more of light";
     }
     if (!cut)
         bounds.min_weight = 0;
     free(used);
+    free(gains);
     return bounds;
 }

@@ -98,6 +98,13 @@ static FeatureSet filter_features(Filter filter)
     }
 }
 
+// Of a material that lets shadow rays through.
+static FeatureSet transmittance_features(const Material *material)
+{
+    const FeatureSet textured = feature_bit(FEATURE_TRANSMIT_TEXTURE);
+    return feature_bit(FEATURE_TRANSMITTANCE) | (material_transmits_textured(material) ? textured : 0);
+}
+
 static FeatureSet scene_features(const Scene *scene, const Layout *layout, const Placer *placer)
 {
     FeatureSet set = placer->features;
@@ -120,7 +127,7 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
     const bool shadows = scene->render.shadows && lights_shine(layout);
     for (u32 i = 0; shadows && i < scene->material_count; i++)
         if (placer->material_used[i] && material_transmits(&scene->materials[i]))
-            set |= feature_bit(FEATURE_TRANSMITTANCE);
+            set |= transmittance_features(&scene->materials[i]);
     if (!features_have(set, FEATURE_UV))
         set &= ~feature_bit(FEATURE_MESH_UVS);
     if (positive(scene->background))

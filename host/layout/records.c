@@ -72,6 +72,12 @@ bool material_transmits(const Material *material)
     return material->transmit.x > 0 || material->transmit.y > 0 || material->transmit.z > 0;
 }
 
+bool material_transmits_textured(const Material *material)
+{
+    const bool textured = material->base_color.texture >= 0 || material->metallic.texture >= 0;
+    return material->kind == MATERIAL_PBR && textured && material_transmits(material);
+}
+
 bool material_mirrors(const Material *material)
 {
     if (material->kind == MATERIAL_PBR)
@@ -85,7 +91,7 @@ static void set_pbr(MaterialRecord *record, const Material *material, Vec3 ambie
     const f64 metallic = material->metallic.texture >= 0 ? 0 : material->metallic.value;
     const f64 through = material->pbr_transmit * (1 - metallic);
     const Vec3 base = material->base_color.color, ka = base;
-    record->flags = MATERIAL_IS_PBR;
+    record->flags = MATERIAL_IS_PBR | (material_transmits_textured(material) ? MATERIAL_TRANSMIT_TEXTURE : 0);
     store3(record->diffuse, base);
     store3(record->ambient, (Vec3){ka.x * ambient_light.x, ka.y * ambient_light.y, ka.z * ambient_light.z});
     store3(record->transmit, (Vec3){through * base.x, through * base.y, through * base.z});

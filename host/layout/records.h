@@ -13,6 +13,8 @@ LightRecord light_record(const Light *light, Vec3 camera);
 
 // Whether light may pass through a surface of this material.
 bool material_transmits(const Material *material);
+// Whether textures say how much passes.
+bool material_transmits_textured(const Material *material);
 // Whether rays may be mirrored by it.
 bool material_mirrors(const Material *material);
 // ambient_light: the ambient intensity as it counts for this material.

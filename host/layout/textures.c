@@ -50,6 +50,14 @@ static void store3(f32 to[3], Vec3 v)
     to[2] = (f32)v.z;
 }
 
+// x less its float, for numbers kept in two. Volatile, because gcc 12 takes two of these side by side, which it
+// vectorises, for 0.
+static f32 low_part(f64 x)
+{
+    const volatile f32 high = (f32)x;
+    return (f32)(x - (f64)high);
+}
+
 static TextureRecord checker_record(const Texture *texture)
 {
     static const u32 kinds[] = {[TEXTURE_CHECKER] = TEXTURE_KIND_CHECKER,
@@ -59,14 +67,14 @@ static TextureRecord checker_record(const Texture *texture)
     TextureRecord record = {
         .scale_u = (f32)u,
         .scale_v = (f32)v,
+        .scale_u_low = low_part(u),
+        .scale_v_low = low_part(v),
         .inset = (f32)(1e-4 / u),
         .kind = kinds[texture->kind],
         // Lanes that want no image read the first texel there is.
         .width = 1,
         .height = 1,
     };
-    record.scale_u_low = (f32)(u - record.scale_u);
-    record.scale_v_low = (f32)(v - record.scale_v);
     store3(record.color_a, texture->colors[0]);
     store3(record.color_b, texture->colors[1]);
     return record;

@@ -120,6 +120,8 @@ typedef struct Texture {
     TextureFilter filter;
     Encoding encoding; // image: of levels; floats are linear
     u32 channel;       // image: the one that a number reads, 0 .. 2
+    const void *content; // image within another file: the bytes of the picture file, where `file` is the other's
+    size_t content_size;
 } Texture;
 
 // A color, times the texture with this index where texture >= 0.

@@ -1,18 +1,10 @@
-// Points of sphere and rectangle lights, and the directions of ambient occlusion.
+// Points of sphere and rectangle lights.
 #ifndef CLRT_KERNELS_LIGHT_AREA_H
 #define CLRT_KERNELS_LIGHT_AREA_H
 
 #include "base/frame.h"
 #include "base/sampling.h"
-#include "base/trig.h"
 #include "light/punctual.h"
-
-// At the angle with this sine and cosine to the frame's normal, `turn` turns about it; made unit.
-static inline v3 direction_about(const Frame *frame, vf sine, vf cosine, vf turn)
-{
-    const SineCosine angle = vf_sincos(turn * TWO_PI);
-    return v3_normalize(frame_from_local(frame, v3_make(sine * angle.cosine, sine * angle.sine, cosine)));
-}
 
 #if HAS_SPHERE_LIGHT
 // Uniform in the solid angle of the sphere. With q = 1 - cos of half the angle that it fills, the cosine is
@@ -31,8 +23,8 @@ OUTLINE LightSample sphere_light_sample(global const LightRecord *light, v3 poin
     const vf tangent = surface * ((distance + radius) * inverse); // (1 - (r / d)^2)
     const vf q = sine * sine / (1.0f + sqrt(vf_max(tangent, (vf)(0.0f))));
     const vf v = u.x * q, cosine = 1.0f - v;
-    const Frame frame = frame_make(v3_scale(to, inverse));
-    sample.dir = direction_about(&frame, sqrt(v * (1.0f + cosine)), cosine, u.y);
+    const Frame frame = frame_about(v3_scale(to, inverse));
+    sample.dir = frame_direction(&frame, sqrt(v * (1.0f + cosine)), cosine, u.y);
     // The near root of the ray with the sphere; its discriminant is a difference of two versines.
     const vf half_chord = sqrt(vf_max((q - v) * (2.0f - (q + v)), (vf)(0.0f)));
     sample.distance = distance * tangent / (cosine + half_chord);
@@ -63,15 +55,6 @@ OUTLINE LightSample rectangle_light_sample(global const LightRecord *light, v3 p
     sample.intensity = v3_make(gain * radiance.x, gain * radiance.y, gain * radiance.z);
     sample.area = true;
     return sample;
-}
-#endif
-
-#if HAS_OCCLUSION
-// About the unit normal, with density cosine / pi.
-static inline v3 occlusion_direction(v3 normal, SamplePoint u)
-{
-    const Frame frame = frame_make(normal);
-    return direction_about(&frame, sqrt(u.x), sqrt(1.0f - u.x), u.y);
 }
 #endif
 

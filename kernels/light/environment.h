@@ -10,7 +10,7 @@
 
 typedef struct {
     global const EnvironmentRecord *record;
-    global const f32 *texels; // 3 a texel, the top row first
+    global const f32 *map; // 3 numbers a texel, the top row first
 #if HAS_ENVIRONMENT_LIGHT
     global const uint *cdf;  // of rows of cells, then for each of its columns: probability of what is before, 2^32 = 1
     global const f32 *edges; // half of 1 - cosine of the polar angle where rows of cells begin, and of the last's end
@@ -83,7 +83,7 @@ static inline MapPlace environment_place(global const EnvironmentRecord *record,
 static inline MapCell environment_cell(const Environment *environment, const MapPlace *place)
 {
     global const EnvironmentRecord *record = environment->record;
-    return map_cell(environment->texels, (vi)(0), place, (vi)((int)record->width), (vi)((int)record->height));
+    return map_cell(environment->map, (vi)(0), place, (vi)((int)record->width), (vi)((int)record->height));
 }
 
 OUTLINE v3 environment_radiance(const Environment *environment, v3 dir)
@@ -155,7 +155,8 @@ OUTLINE Drawn draw_index(global const uint *table, vi first, uint count, vu numb
         const vi middle = low + (int)step;
         const vm within = middle < (vi)((int)count);
         const vu value = VU_FROM_VI(vi_gather((global const int *)table, first + (within ? middle : (vi)(0))));
-        low = within & (number >= value) ? middle : low;
+        const vm reached = within & (number >= value);
+        low = reached ? middle : low;
     }
     const vm last = low + 1 >= (vi)((int)count);
     const vi begin = vi_gather((global const int *)table, first + low);

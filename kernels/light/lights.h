@@ -3,7 +3,7 @@
 #define CLRT_KERNELS_LIGHT_LIGHTS_H
 
 #include "light/punctual.h"
-#if HAS_HIT_RANDOM
+#if HAS_AREA_LIGHTS
 #include "light/area.h"
 #endif
 

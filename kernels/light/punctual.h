@@ -17,8 +17,6 @@ typedef struct {
 #endif
 } LightSample;
 
-#if HAS_POINT || HAS_DIRECTIONAL || HAS_SPOT
-
 // The light as point sees it. A point at the light's very position receives nothing.
 OUTLINE LightSample punctual_sample(global const LightRecord *light, v3 point)
 {
@@ -66,6 +64,5 @@ OUTLINE LightSample punctual_sample(global const LightRecord *light, v3 point)
 #endif
     return sample;
 }
-#endif
 
 #endif

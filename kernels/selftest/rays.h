@@ -126,7 +126,7 @@ OUTLINE void probe_shade(const Hierarchy *scene, const Shading *shading, global 
     const Scatter scatter = scatter_make(&hit);
     vf lit = (vf)(0.0f);
     if (light_count > 0) {
-        const LightSample light = light_sample(lights, hit.point);
+        const LightSample light = punctual_sample(lights, hit.point);
         lit = shade_light(&hit, color, &light).x;
     }
     store_column3(hit.point, out + PROBE_P * stride, stride);

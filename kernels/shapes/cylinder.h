@@ -18,9 +18,10 @@ typedef struct {
 static inline RoundSolid round_solid(const PrimitiveLanes *p, const RayLanes *ray)
 {
     RoundSolid s;
-    s.o = canonical_point(p, ray->org);
-    s.d = canonical_direction(p, ray->dir);
-    s.shift = closest_shift(&s.o, s.d, v3_dot(s.d, s.d), (vf)(4.0f));
+    const CanonicalRay q = canonical_ray(p, ray);
+    s.o = q.o;
+    s.d = q.d;
+    s.shift = q.shift + closest_shift(&s.o, s.d, v3_dot(s.d, s.d), (vf)(4.0f));
     const vf inverse = (vf)(1.0f) / s.d.z;
     const vm parallel = fabs(inverse) == (vf)(INFINITY);
     const vm between = fabs(s.o.z) <= (vf)(1.0f);

@@ -6,8 +6,9 @@
 
 static inline vf intersect_ellipsoid(const PrimitiveLanes *p, const RayLanes *ray)
 {
-    return solid_hit(ray, sphere_roots(canonical_point(p, ray->org), canonical_direction(p, ray->dir),
-                                       (vf)(1.0f), ray->self));
+    const CanonicalRay q = canonical_ray(p, ray);
+    const Interval roots = sphere_roots(q.o, q.d, (vf)(1.0f), ray->self);
+    return solid_hit(ray, interval_make(q.shift + roots.near, q.shift + roots.far));
 }
 
 static inline void surface_ellipsoid(const PrimitiveLanes *p, const RayLanes *ray, vf t, SurfaceLanes *s)

@@ -83,16 +83,39 @@ static inline vf solid_hit(const RayLanes *ray, Interval solid)
     return first ? solid.near : second ? solid.far : (vf)(INFINITY);
 }
 
-// q of a point, A (p - c).
-static inline v3 canonical_point(const PrimitiveLanes *p, v3 point)
-{
-    const v3 f = v3_sub(point, p->c);
-    return v3_make(v3_dot(p->row0, f), v3_dot(p->row1, f), v3_dot(p->row2, f));
-}
-
 static inline v3 canonical_direction(const PrimitiveLanes *p, v3 d)
 {
     return v3_make(v3_dot(p->row0, d), v3_dot(p->row1, d), v3_dot(p->row2, d));
+}
+
+// q of a point, A (p - c).
+static inline v3 canonical_point(const PrimitiveLanes *p, v3 point)
+{
+    return canonical_direction(p, v3_sub(point, p->c));
+}
+
+// A ray in the canonical space: q = o + (t - shift) d.
+typedef struct {
+    v3 o, d;
+    vf shift;
+} CanonicalRay;
+
+// Rays that start far away (|q| >= 2) are moved to the point closest to c before A is applied, so that it is
+// applied to small numbers: what its products round counts at the size of the shape and not at the distance.
+static inline CanonicalRay canonical_ray(const PrimitiveLanes *p, const RayLanes *ray)
+{
+    CanonicalRay r;
+    v3 f = v3_sub(ray->org, p->c);
+    r.d = canonical_direction(p, ray->dir);
+    r.o = canonical_direction(p, f);
+    r.shift = (vf)(0.0f);
+    const vm far = v3_dot(r.o, r.o) >= (vf)(4.0f);
+    if (vm_any(far)) {
+        const vf t = closest_shift(&f, ray->dir, v3_dot(ray->dir, ray->dir), (vf)(0.0f));
+        r.shift = far ? t : r.shift;
+        r.o = v3_select(far, canonical_direction(p, f), r.o);
+    }
+    return r;
 }
 
 // The gradient in the primitive's space of a function whose gradient in the canonical space is g.

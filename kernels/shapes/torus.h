@@ -80,10 +80,11 @@ static inline void torus_place(TorusRay *r, int k, vf s, vf end)
 static inline TorusRay torus_ray(const PrimitiveLanes *p, const RayLanes *ray, vm *valid)
 {
     TorusRay r;
-    const v3 d = canonical_direction(p, ray->dir);
+    const CanonicalRay q = canonical_ray(p, ray);
+    const v3 d = q.d;
     const vf dd = v3_dot(d, d);
-    r.o = canonical_point(p, ray->org);
-    r.shift = closest_shift(&r.o, d, dd, (vf)(0.0f));
+    r.o = q.o;
+    r.shift = q.shift + closest_shift(&r.o, d, dd, (vf)(0.0f));
     r.t_per_s = (vf)(1.0f) / sqrt(dd);
     r.d = v3_scale(d, r.t_per_s);
     r.tube = p->p0;

@@ -7,6 +7,7 @@
 #define MATERIAL_BLINN 1u
 #define MATERIAL_FRESNEL 2u
 #define MATERIAL_IS_PBR 4u
+#define MATERIAL_TRANSMIT_TEXTURE 16u // how much goes through is a matter of textures
 #define MATERIAL_ONE_SIDED 8u // emission of the outer side alone: area lights
 
 // Colors and numbers are multiplied by the textures that stand beside them.

@@ -100,7 +100,7 @@ static inline void drain_queue(const State *s, const Hierarchy *scene, const Sha
             shade_hits(s, scene, shading, lights, params, &pass, count, rays);
 #if HAS_SHADOWS
             GROUP_BARRIER();
-            intersect_shadow(s, scene, shading->materials, lights + pass.first, pass.last - pass.first, count,
+            intersect_shadow(s, scene, shading, lights + pass.first, pass.last - pass.first, count,
                              &rays[RAYS_SHADOW]);
             GROUP_BARRIER();
 #endif
@@ -219,7 +219,7 @@ kernel void render_tiles(constant RenderParams *params,
 #endif
 #if HAS_ENVIRONMENT
     shading.environment.record = environment;
-    shading.environment.texels = environment_texels;
+    shading.environment.map = environment_texels;
 #endif
 #if HAS_ENVIRONMENT_LIGHT
     shading.environment.cdf = environment_cdf;

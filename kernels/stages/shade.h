@@ -6,6 +6,9 @@
 #if HAS_LIGHTS
 #include "light/lights.h"
 #endif
+#if HAS_OCCLUSION
+#include "base/frame.h"
+#endif
 #include "material/lobes.h"
 #include "shared/light.h"
 #include "stages/hit.h"
@@ -148,7 +151,8 @@ typedef struct {
 static inline LightRay occlusion_ray(const Hit *hit, v3 ambient, global const LightRecord *light)
 {
     LightRay ray;
-    ray.dir = occlusion_direction(hit->ns, hit_random_point(&hit->random, light, 0));
+    const SamplePoint u = hit_random_point(&hit->random, light, 0);
+    ray.dir = cosine_direction(hit->ns, u.x, u.y);
     ray.length = (vf)(light->size);
     const v3 share = v3_scale(ambient, (vf)(light->intensity.x));
     ray.gain = v3_select(v3_dot(hit->ng, ray.dir) > (vf)(0.0f), share, v3_splat(0.0f));

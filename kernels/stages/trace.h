@@ -5,6 +5,9 @@
 #include "accel/batch.h"
 #include "shared/light.h"
 #include "stages/queue.h"
+#if HAS_TRANSMIT_TEXTURE
+#include "stages/shade.h"
+#endif
 
 // Origins of LANES rays at places first.. of a batch; self and instance: the surface that they start on.
 static inline void batch_start(BatchRays *rays, BatchHits *hits, int first, v3 org, vi self, vi instance)
@@ -68,11 +71,27 @@ OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint coun
 }
 
 #if HAS_SHADOWS
+#if HAS_TRANSMIT_TEXTURE
+// What the surface that ray k has met lets through where textures say how much: all lanes look at that one hit.
+OUTLINE void textured_transmit(const Hierarchy *scene, const Shading *shading, const BatchRays *rays,
+                               const BatchHits *hits, int k, int primitive, int instance, real *weight)
+{
+    const v3 org = v3_make((vf)(rays->org_x[k]), (vf)(rays->org_y[k]), (vf)(rays->org_z[k]));
+    const v3 dir = v3_make((vf)(rays->dir_x[k]), (vf)(rays->dir_y[k]), (vf)(rays->dir_z[k]));
+    const Hit hit = hit_make(scene, shading, org, dir, (vf)(hits->tfar[k]), (vi)(primitive), (vi)(instance));
+    const PbrLanes pbr = hit_pbr(&hit, shading);
+    const v3 through = v3_scale(pbr.base_color, pbr_through(&pbr));
+    const LanesF lanes[3] = { { through.x }, { through.y }, { through.z } };
+    for (int c = 0; c < 3; c++)
+        weight[c] = lanes[c].s[0];
+}
+#endif
+
 #if HAS_TRANSMITTANCE
 // Multiplies the gain of the shadow rays in mask by the transmit weights of all surfaces that they cross, one
 // surface after the other in the order of the ray, so that the product is rounded alike everywhere. A ray
 // ends when it meets a surface that lets nothing through or leaves nothing.
-static inline void transmit_shadows(const Hierarchy *scene, global const MaterialRecord *materials,
+static inline void transmit_shadows(const Hierarchy *scene, const Shading *shading,
                                     const BatchRays *rays, BatchHits *hits, const real *tfar, uint mask,
                                     uint planes_out, real *gain)
 {
@@ -90,10 +109,15 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
             instance = hits->instance[k];
             hits->instance[k] = NO_HIT;
 #endif
-            const uint material = hit_material(scene, instance, primitive);
+            global const MaterialRecord *material = &shading->materials[hit_material(scene, instance, primitive)];
+            real weight[3] = { material->transmit[0], material->transmit[1], material->transmit[2] };
+#if HAS_TRANSMIT_TEXTURE
+            if (material->flags & MATERIAL_TRANSMIT_TEXTURE)
+                textured_transmit(scene, shading, rays, hits, k, primitive, instance, weight);
+#endif
             bool some = false;
             for (int c = 0; c < 3; c++) {
-                gain[c * BATCH + k] *= materials[material].transmit[c];
+                gain[c * BATCH + k] *= weight[c];
                 some = some || gain[c * BATCH + k] > 0.0f;
             }
             if (!some)
@@ -111,7 +135,7 @@ static inline void transmit_shadows(const Hierarchy *scene, global const Materia
 // Traces the shadow rays of a batch of slots towards the record, which is that of light number `light` of the
 // pass, those of mask, and adds what arrives to the radiance of the batch.
 static inline void shadow_batch(const State *s, const Hierarchy *scene,
-                                global const MaterialRecord *materials, global const LightRecord *record,
+                                const Shading *shading, global const LightRecord *record,
                                 uint light, uint begin, uint count, uint mask, BatchRays *rays,
                                 BatchHits *hits, real *radiance)
 {
@@ -147,7 +171,7 @@ static inline void shadow_batch(const State *s, const Hierarchy *scene,
     open &= mask;
 #if HAS_TRANSMITTANCE
     if (through)
-        transmit_shadows(scene, materials, rays, hits, tfar, open, planes_out, gain);
+        transmit_shadows(scene, shading, rays, hits, tfar, open, planes_out, gain);
 #endif
     for (int k = 0; k < BATCH; k += LANES) {
         const vm lit = vm_from_bits(open >> k);
@@ -160,7 +184,7 @@ static inline void shadow_batch(const State *s, const Hierarchy *scene,
 
 // Traces the shadow rays towards the lights of a pass, in the order of the lights, so that each slot adds its
 // own light in that order.
-OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global const MaterialRecord *materials,
+OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, const Shading *shading,
                               global const LightRecord *lights, uint light_count, uint count, uint *traced)
 {
     global const int *queue = s->ints + QUEUE * TILE_SLOTS;
@@ -189,7 +213,7 @@ OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, global con
                 mask |= vm_bits((VI_LOAD(&flags[k]) & (vi)(1 << light)) != (vi)(0)) << k;
             *traced += popcount(mask);
             if (mask)
-                shadow_batch(s, scene, materials, &lights[light], light, begin, count, mask, &rays, &hits,
+                shadow_batch(s, scene, shading, &lights[light], light, begin, count, mask, &rays, &hits,
                              radiance);
         }
         for (int k = 0; k < BATCH; k += LANES) {

@@ -17,8 +17,13 @@ is_png out.png || fail "no PNG"
 [ ! -s stdout ] || fail "talk on standard output"
 expect 0 '' "$clrt" -q scene.txt out.png
 cp out.png first.png
+expect 0 '' "$clrt" - out.png <scene.txt
 expect 0 '' "$clrt" - - <scene.txt
-cmp stdout first.png || fail "another picture through streams"
+cmp stdout out.png || fail "another file through a stream"
+expect 0 '' "$clrt" - stream.pfm <scene.txt
+expect 0 '' "$clrt" scene.txt out.pfm
+cmp stream.pfm out.pfm || fail "another picture through streams"
+rm -f stream.pfm
 expect 0 '' "$clrt" -- scene.txt out.png
 expect 0 '' "$clrt" scene.txt out.pfm
 [ "$(head -c 8 out.pfm | tr '\n' ' ')" = "PF 32 24" ] || fail "no PFM"

@@ -322,7 +322,10 @@ static void check_gltf(const char *name)
     assert_string_equal(red->name, "red");
     assert_true(red->base_color.x == 1 && red->base_color.y == 0.5 && red->base_color.z == 0.25);
     assert_true(red->emission.x == 0 && red->emission.y == 0.5 && red->emission.z == 0);
-    assert_false(red->textured);
+    assert_true(red->metallic == 1 && red->roughness == 1 && red->transmit == 0 && red->ior == 1.5);
+    for (u32 i = 0; i < IMPORT_MAPS; i++)
+        assert_true(!red->maps[i].file && red->maps[i].image == -1);
+    assert_false(red->inexact);
     import_destroy(&file);
 }
 

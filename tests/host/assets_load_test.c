@@ -185,21 +185,60 @@ static void test_missing_materials(void **state)
     release(&p);
 }
 
+// One texel of grey 51, 8 bits.
+static const u8 grey_png[] = {
+    0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13, 'I', 'H', 'D', 'R', 0, 0, 0, 1, 0, 0, 0, 1, 8, 0, 0, 0, 0,
+    0x3a, 0x7e, 0x9b, 0x55, 0x00, 0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x30,
+    0x06, 0x00, 0x00, 0x35, 0x00, 0x34, 0xca, 0xb4, 0x99, 0xed, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45,
+    0x4e, 0x44, 0xae, 0x42, 0x60, 0x82,
+};
+
+static void write_grey(const char *name)
+{
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(grey_png, 1, sizeof grey_png, file), sizeof grey_png);
+    assert_int_equal(fclose(file), 0);
+}
+
 static void test_textures(void **state)
 {
     (void)state;
-    write_text("t.mtl", "newmtl plain\nnewmtl wood\nKd 1 1 1\nmap_Kd wood.png\nnewmtl brick\nmap_Kd b.png\n"
-                        "newmtl unused\nmap_Kd c.png\n");
-    write_text("t.obj", SQUARE_VERTICES "mtllib t.mtl\nusemtl plain\nf 1 2 3\nusemtl wood\nf 1 3 4\n");
-    expect_messages("mesh { file \"t.obj\" }",
-                    "t.mtl:4:1: warning: image textures are not supported yet; left out: map_Kd of material "
-                    "'wood'\n");
-    write_text("t.obj",
-               SQUARE_VERTICES "mtllib t.mtl\nusemtl wood\nf 1 2 3\nusemtl brick\nf 1 3 4\n");
-    expect_messages("mesh { file \"t.obj\" }",
-                    "t.mtl:4:1: warning: image textures are not supported yet; left out: map_Kd of material "
-                    "'wood', and those of 1 more\n");
+    write_text("t.mtl", "newmtl plain\nnewmtl wood\nKd 1 0.5 0.25\nmap_Kd wood.png\nnewmtl brick\nmap_Kd wood.png\n"
+                        "norm bumps.png\nnewmtl unused\nmap_Kd away.png\n");
+    write_text("t.obj", SQUARE_VERTICES
+               "mtllib t.mtl\nusemtl plain\nf 1 2 3\nusemtl wood\nf 1 3 4\nusemtl brick\nf 1 2 4\n");
+    write_grey("wood.png");
+    write_grey("bumps.png");
+    Parsed p = load_text("mesh { file \"t.obj\" }");
+    assert_string_equal(p.messages, "");
+    const Scene *s = p.scene;
+    assert_int_equal(s->texture_count, 3);
+    assert_int_equal(s->bitmap_count, 2);
+    const Material *wood = &s->materials[2], *brick = &s->materials[3];
+    assert_int_equal(s->materials[1].diffuse.texture, -1);
+    assert_int_equal(wood->diffuse.texture, 0);
+    assert_int_equal(wood->ambient.texture, 0);
+    assert_vec(wood->diffuse.color, 1, 0.5, 0.25);
+    assert_vec(wood->ambient.color, 1, 0.5, 0.25);
+    assert_int_equal(wood->normal_map, -1);
+    assert_vec(brick->diffuse.color, 0.8, 0.8, 0.8); // what is missing has the defaults
+    assert_int_equal(brick->normal_map, 2);
+    assert_ptr_equal(s->textures[0].bitmap, s->textures[1].bitmap);
+    assert_ptr_not_equal(s->textures[0].bitmap, s->textures[2].bitmap);
+    assert_int_equal(s->textures[0].encoding, ENCODING_SRGB);
+    assert_true(s->textures[0].scale[0] == 1 && s->textures[0].scale[1] == 1);
+    release(&p);
+    write_text("u.mtl", "newmtl wood\nmap_Kd away.png\n");
+    write_text("u.obj", SQUARE_VERTICES "mtllib u.mtl\nusemtl wood\nf 1 2 3\n");
+    expect_messages("mesh { file \"u.obj\" }",
+                    "t:1:8: error: cannot read 'away.png': No such file or directory\n"
+                    "    mesh { file \"u.obj\" }\n           ^~~~\n");
 }
+
+#define GREY_URI \
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGMwBgAANQA0" \
+    "yrSZ7QAAAABJRU5ErkJggg=="
 
 static void test_gltf_materials(void **state)
 {
@@ -209,23 +248,51 @@ static void test_gltf_materials(void **state)
     write_text("m.gltf",
                "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
                "\"nodes\":[{\"mesh\":0}],\"materials\":[{\"name\":\"blue\","
-               "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0.5,1,1]}}],"
+               "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0.5,1,1],\"metallicFactor\":0.25,"
+               "\"roughnessFactor\":0.75,\"baseColorTexture\":{\"index\":0},"
+               "\"metallicRoughnessTexture\":{\"index\":1}},\"emissiveFactor\":[1,0.5,0],"
+               "\"emissiveTexture\":{\"index\":0},\"normalTexture\":{\"index\":2},\"occlusionTexture\":{\"index\":1},"
+               "\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}}],"
+               "\"extensionsUsed\":[\"KHR_materials_transmission\"],"
+               "\"samplers\":[{\"magFilter\":9728}],"
+               "\"textures\":[{\"source\":0},{\"source\":1},{\"source\":2,\"sampler\":0}],"
+               "\"images\":[{\"uri\":\"wood.png\"},{\"uri\":\"" GREY_URI "\"},{\"uri\":\"bumps.png\"}],"
                "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
                "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
                "\"min\":[0,0,0],\"max\":[1,1,0]}],"
                "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36}],"
                "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
                "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
+    write_grey("wood.png");
+    write_grey("bumps.png");
     Parsed p = load_text("mesh { file \"m.gltf\" }");
-    assert_string_equal(p.messages, "t:1:8: warning: pbr materials are not supported yet: base colour and "
-                                    "emission of those of 'm.gltf' serve as phong\n"
-                                    "    mesh { file \"m.gltf\" }\n"
-                                    "           ^~~~\n");
+    assert_string_equal(p.messages, "");
     const Mesh *mesh = mesh_of(&p, 0);
     assert_int_equal(mesh->parts[0].material, 1);
-    assert_vec(p.scene->materials[1].diffuse.color, 0, 0.5, 1);
-    assert_vec(p.scene->materials[1].ambient.color, 0, 0.5, 1);
-    assert_int_equal(p.scene->materials[1].kind, MATERIAL_PHONG);
+    const Material *m = &p.scene->materials[1];
+    const Texture *t = p.scene->textures;
+    assert_int_equal(m->kind, MATERIAL_PBR);
+    assert_vec(m->base_color.color, 0, 0.5, 1);
+    assert_vec(m->emission.color, 1, 0.5, 0);
+    assert_true(m->metallic.value == 0.25 && m->roughness.value == 0.75 && m->occlusion.value == 1);
+    assert_true(m->pbr_transmit == 0.5 && m->ior == 1.5);
+    assert_string_equal(t[m->base_color.texture].file, "wood.png");
+    assert_string_equal(t[m->emission.texture].file, "wood.png");
+    assert_string_equal(t[m->normal_map].file, "bumps.png");
+    assert_int_equal(t[m->normal_map].filter, TEXTURE_NEAREST);
+    assert_int_equal(t[m->base_color.texture].filter, TEXTURE_BILINEAR);
+    // The picture within the file, read once for three numbers.
+    assert_int_equal(t[m->roughness.texture].channel, 1);
+    assert_int_equal(t[m->metallic.texture].channel, 2);
+    assert_int_equal(t[m->occlusion.texture].channel, 0);
+    assert_string_equal(t[m->metallic.texture].file, "m.gltf");
+    assert_int_equal(p.scene->bitmap_count, 3);
+    const Bitmap *within = t[m->metallic.texture].bitmap;
+    assert_ptr_equal(within, t[m->roughness.texture].bitmap);
+    assert_ptr_equal(within, t[m->occlusion.texture].bitmap);
+    assert_int_equal(within->width, 1);
+    assert_int_equal(within->height, 1);
+    assert_true(bitmap_value(within, 0, 0, 0) == 51.0 / 255);
     release(&p);
 }
 

@@ -81,7 +81,7 @@ static void nothing_follows(void **state)
     (void)state;
     const ErrorBudget budget = budget_of(
         "background 0.25 ambient 0.5 light directional { direction 0 -1 0 intensity 2 } "
-        "light point { position 0 9 0 intensity 3 attenuation 2 0 1 } "
+        "light point { position 0 9 0 intensity 3 attenuation 2 0 0 } "
         "material unused phong { reflect 1 emission 77 } "
         "material m phong { ambient 0.1 diffuse 0.6 specular 0.4 } sphere { center 0 0 -9 radius 1 material m }");
     assert_true(budget.bounds.depth == 0 && budget.bounds.min_weight == 0 && !budget.bounds.unbounded);
@@ -114,7 +114,8 @@ static void without_bound(void **state)
     assert_true(isinf(glass.bounds.depth) && isfinite(glass.bounds.radiance[0]) && isinf(glass.total));
     assert_true(isfinite(glass.bounds.min_weight) && glass.bounds.min_weight > 0);
     const ErrorBudget near = budget_of(
-        "image { samples 4 } light point { position 0 9 0 attenuation 0 0 1 } sphere { center 0 0 -9 radius 1 }");
+        "image { samples 4 } light point { position 0 0 0 attenuation 0 0 1 } torus { center 0 0 0 axis 0 1 0 "
+        "major 2 minor 1 }");
     assert_non_null(near.bounds.unbounded);
     assert_string_equal(budget_assumption(&near), "normal");
     // Shadow rays grow brighter through it.
@@ -124,12 +125,41 @@ static void without_bound(void **state)
     assert_non_null(bright.bounds.unbounded);
 }
 
+// A light that grows without limit is as bright as its nearest surface is near: 2, whatever the shape is.
+static void nearest_surfaces(void **state)
+{
+    (void)state;
+    const char *shapes[] = {
+        "plane { point 0 -2 0 normal 0 1 0 }",
+        "sphere { center 0 -5 0 radius 3 }",
+        "sphere { center 0 1 0 radius 3 }",                       // from within
+        "box { min -3 -2 -9 max 4 7 9 }",                         // from within
+        "box { min -3 -9 -9 max 4 -2 9 }",
+        "box { min -1 -1 -1 max 1 1 1 rotate z 45 translate 0 -3.414213562373095 0 }", // its edge
+        "triangle { vertices -9 -2 -9  9 -2 -9  0 -2 9 }",
+        "disk { center 0 -2 0 normal 0 1 0 radius 9 }",
+        "torus { center 0 -3 0 axis 0 1 0 major 4 minor 1 }",     // its box
+        "object o { sphere { center 0 0 0 radius 1 } box { min -1 -1 -1 max 1 1 1 } } "
+        "instance o { translate 0 -3 0 }",
+    };
+    for (u32 i = 0; i < sizeof shapes / sizeof shapes[0]; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 DARK "camera { position 1 2 3 look_at 0 0 -9 } light point { position 0 0 0 intensity 8 "
+                      "attenuation 0 0 1 } material default phong { diffuse 0.5 } sphere { center 0 50 0 radius 1 } %s",
+                 shapes[i]);
+        const f64 radiance = budget_of(text).bounds.radiance[0];
+        if (!(fabs(radiance - 1) < 1e-3 && radiance >= 1))
+            fail_msg("%s: %.9g, not 1", shapes[i], radiance);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parallel_mirrors), cmocka_unit_test(cut_off),
         cmocka_unit_test(nothing_follows),  cmocka_unit_test(textures_and_channels),
-        cmocka_unit_test(without_bound),
+        cmocka_unit_test(without_bound),    cmocka_unit_test(nearest_surfaces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

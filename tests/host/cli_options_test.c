@@ -176,7 +176,7 @@ static void says_what_comes_later(void **state)
     refused("--time 5 a b", "--time is not supported yet");
     refused("--part 1/2 a b", "--part is not supported yet");
     refused("--resume a b", "--resume is not supported yet");
-    refused("a b --math", "--math is not supported yet");
+    refused("a b --part", "--part is not supported yet");
 }
 
 static void takes_the_other_actions(void **state)

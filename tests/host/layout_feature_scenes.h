@@ -18,7 +18,14 @@ typedef struct FeatureScenes {
 // Files for whoever reads them; layout_meshes.h knows the meshes by their names.
 #define SHAPE_SHEET(name, properties) \
     "mesh { file \"" CLRT_TESTS "/host/meshes/" name ".obj\" " properties " translate 0 0 -4 }\n"
+#define LIGHT_PANEL(radiance) \
+    "light rectangle { corner 3 4 0 edge1 1 0 0 edge2 0 0 1 radiance " radiance " }\n"
+#define LIGHT_BULB(radiance) "light sphere { center 3 4 0 radius 1 radiance " radiance " }\n"
+#define ENVIRONMENT_SKY(properties) \
+    "environment { file \"" CLRT_TESTS "/render/meshes/sky.hdr\" " properties " }\n"
+#define MATERIAL_PBR_M "material m pbr { }\n"
 #define LIGHT_LAMP "light point { position 3 4 0 }\n"
+#define TEXTURE_IMAGE_T "texture t image { file \"" CLRT_TESTS "/render/meshes/skin.png\" }\n"
 #define MATERIAL_M(properties) "material m phong { " properties " }\n"
 
 static const FeatureScenes feature_scenes[] = {
@@ -39,6 +46,7 @@ static const FeatureScenes feature_scenes[] = {
     {FEATURE_CYLINDER, SHAPE_BALL "cylinder { base 2 -1 -4 top 2 1 -4 radius 0.5 }\n", SHAPE_BALL},
     {FEATURE_CONE, SHAPE_BALL "cone { base 2 -1 -4 top 2 1 -4 radius 0.5 }\n", SHAPE_BALL},
     {FEATURE_TORUS, SHAPE_BALL "torus { center 0 0 -4 axis 0 1 0 major 2 minor 0.3 }\n", SHAPE_BALL},
+    {FEATURE_RECTANGLE, SHAPE_BALL LIGHT_PANEL("0"), SHAPE_BALL},
     {FEATURE_TRIANGLE, SHAPE_BALL "triangle { vertices -1 0 -4 1 0 -4 0 1 -4 }\n", SHAPE_BALL},
     {FEATURE_TRIANGLE_EXTRA, "triangle { vertices -1 0 -4 1 0 -4 0 1 -4 normals 0 0 1 1 0 1 0 1 1 }\n",
      "triangle { vertices -1 0 -4 1 0 -4 0 1 -4 uvs 0 0 1 0 0 1 }\n"},
@@ -56,6 +64,10 @@ static const FeatureScenes feature_scenes[] = {
      "texture t checker { scale 8 8 }\n" MATERIAL_M("diffuse 0.5") SHAPE_BALL_OF("m")},
     {FEATURE_CHECKER3D, "texture t checker3d { scale 8 }\n" MATERIAL_M("diffuse t") SHAPE_BALL_OF("m"),
      "texture t checker3d { scale 8 }\n" MATERIAL_M("diffuse 0.5") SHAPE_BALL_OF("m")},
+    {FEATURE_IMAGE, TEXTURE_IMAGE_T MATERIAL_M("diffuse t") SHAPE_BALL_OF("m"),
+     TEXTURE_IMAGE_T MATERIAL_M("diffuse 0.5") SHAPE_BALL_OF("m")},
+    {FEATURE_NORMAL_MAP, TEXTURE_IMAGE_T MATERIAL_M("diffuse t normal_map t") SHAPE_BALL_OF("m"),
+     TEXTURE_IMAGE_T MATERIAL_M("diffuse t") SHAPE_BALL_OF("m")},
     {FEATURE_LIGHTS, SHAPE_BALL LIGHT_LAMP, SHAPE_BALL "light point { position 3 4 0 intensity 0 }\n"},
     {FEATURE_POINT, SHAPE_BALL LIGHT_LAMP "light directional { direction 0 -1 0 }\n",
      SHAPE_BALL "light directional { direction 0 -1 0 }\n"},
@@ -63,9 +75,23 @@ static const FeatureScenes feature_scenes[] = {
      SHAPE_BALL LIGHT_LAMP},
     {FEATURE_SPOT, SHAPE_BALL LIGHT_LAMP "light spot { position 0 4 0 look_at 0 0 -4 }\n",
      SHAPE_BALL LIGHT_LAMP},
+    {FEATURE_SPHERE_LIGHT, SHAPE_BALL LIGHT_BULB("1"), SHAPE_BALL LIGHT_BULB("0")},
+    {FEATURE_RECTANGLE_LIGHT, SHAPE_BALL LIGHT_PANEL("1"), SHAPE_BALL LIGHT_PANEL("0")},
+    {FEATURE_OCCLUSION, SHAPE_BALL "render { ambient_occlusion 4 1 }\n",
+     SHAPE_BALL "ambient 0 render { ambient_occlusion 4 1 }\n"},
+    {FEATURE_ENVIRONMENT, SHAPE_BALL ENVIRONMENT_SKY(""), SHAPE_BALL ENVIRONMENT_SKY("intensity 0")},
+    {FEATURE_ENVIRONMENT_LIGHT, MATERIAL_PBR_M SHAPE_BALL_OF("m") ENVIRONMENT_SKY(""),
+     MATERIAL_PBR_M SHAPE_BALL ENVIRONMENT_SKY("")},
+    {FEATURE_PREFILTERED,
+     "render { environment_lighting prefiltered }\n" MATERIAL_PBR_M SHAPE_BALL_OF("m") ENVIRONMENT_SKY(""),
+     "render { environment_lighting prefiltered }\n" MATERIAL_PBR_M SHAPE_BALL ENVIRONMENT_SKY("")},
+    {FEATURE_HIT_RANDOM, SHAPE_BALL LIGHT_BULB("1"), SHAPE_BALL LIGHT_LAMP},
     {FEATURE_SHADOWS, SHAPE_BALL LIGHT_LAMP, SHAPE_BALL LIGHT_LAMP "render { shadows off }\n"},
     {FEATURE_TRANSMITTANCE, MATERIAL_M("transmit 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP,
      MATERIAL_M("transmit 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP "render { shadows off }\n"},
+    {FEATURE_TRANSMIT_TEXTURE,
+     "texture t checker { }\nmaterial m pbr { base_color t transmit 1 }\n" SHAPE_BALL_OF("m") LIGHT_LAMP,
+     "texture t checker { }\nmaterial m pbr { base_color t }\n" SHAPE_BALL_OF("m") LIGHT_LAMP},
     {FEATURE_SPECULAR, MATERIAL_M("specular 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP,
      MATERIAL_M("shininess 5") SHAPE_BALL_OF("m") LIGHT_LAMP},
     {FEATURE_PHONG, MATERIAL_M("specular 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP,

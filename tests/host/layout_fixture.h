@@ -9,11 +9,23 @@
 #include "layout/layout.h"
 #include "layout_meshes.h"
 
+// Gives image textures and the environment a picture of one texel in place of that of their file.
+static inline void bitmaps_attach(Scene *scene)
+{
+    static u8 texel[3] = {255, 128, 0};
+    static const Bitmap bitmap = {.width = 1, .height = 1, .channels = 3, .type = BITMAP_U8, .texels = texel};
+    for (u32 i = 0; i < scene->texture_count; i++)
+        if (scene->textures[i].kind == TEXTURE_IMAGE)
+            scene->textures[i].bitmap = &bitmap;
+    scene->environment.bitmap = &bitmap;
+}
+
 static inline Layout *layout_good(const char *text)
 {
     Parsed parsed = parse_good(text);
     Error error = {0};
     meshes_attach(parsed.scene);
+    bitmaps_attach(parsed.scene);
     Layout *layout = layout_create(parsed.scene, &error);
     meshes_detach(parsed.scene);
     if (!layout)
@@ -28,6 +40,7 @@ static inline Error layout_error(const char *text)
     Parsed parsed = parse_good(text);
     Error error = {0};
     meshes_attach(parsed.scene);
+    bitmaps_attach(parsed.scene);
     assert_null(layout_create(parsed.scene, &error));
     meshes_detach(parsed.scene);
     parsed_end(&parsed);

@@ -31,8 +31,8 @@ Vec environment_radiance(const Environment *environment, Vec d)
     return times(environment->intensity, map_value(environment, u, v));
 }
 
-/* Weight of a texel: its own value and those its bilinear neighbourhood mixes in, so that no lit place is left out,
- * by the solid angle. */
+/* Weight of a texel: its own value and those its bilinear neighbourhood mixes in, so that no lit place is
+ * left out, by the solid angle. */
 static real texel_weight(const Environment *environment, int column, int row)
 {
     const Image *image = environment->image;
@@ -101,7 +101,9 @@ real environment_density(const Environment *environment, Vec d)
     int row = (int)fminl(image->height - 1, v * image->height);
     const real *rows = environment->rows;
     const real *texels = &environment->texels[(size_t)row * (size_t)image->width];
-    real share = (rows[row] - (row > 0 ? rows[row - 1] : 0)) * (texels[column] - (column > 0 ? texels[column - 1] : 0));
-    real angle = 2 * PI / image->width * (cosl(PI * row / image->height) - cosl(PI * (row + 1) / image->height));
+    real share = (rows[row] - (row > 0 ? rows[row - 1] : 0)) *
+                 (texels[column] - (column > 0 ? texels[column - 1] : 0));
+    real angle = 2 * PI / image->width *
+                 (cosl(PI * row / image->height) - cosl(PI * (row + 1) / image->height));
     return share / angle;
 }

@@ -1,4 +1,5 @@
-/* The environment map of section 2: radiance by direction, and directions by radiance. Knows nothing of surfaces. */
+/* The environment map of section 2: radiance by direction, and directions by radiance. Knows nothing of
+ * surfaces. */
 #ifndef ORACLE_ENVIRONMENT_H
 #define ORACLE_ENVIRONMENT_H
 

@@ -23,11 +23,13 @@ static Vec light_share(const Spot *spot, int index, Square place)
     Vec intensity = arrival.intensity;
     if (light_is_area(light) && !spot->look.material->pbr)
         intensity = scaled(intensity, 1 / PI);
-    Vec share = times(intensity, look_reflected(&spot->look, spot->normal, arrival.direction, scaled(spot->d, -1)));
+    Vec to_eye = scaled(spot->d, -1);
+    Vec share = times(intensity, look_reflected(&spot->look, spot->normal, arrival.direction, to_eye));
     if (!spot->scene->shadows || largest(share) <= 0)
         return share;
     Ray ray = ray_from(spot, arrival.direction);
-    return times(share, hit_transmittance(spot->scene, &ray, arrival.distance, light_is_area(light) ? index : -1));
+    return times(share, hit_transmittance(spot->scene, &ray, arrival.distance,
+                                          light_is_area(light) ? index : -1));
 }
 
 Vec gather_lights(const Spot *spot)

@@ -1,4 +1,4 @@
-/* The light that falls on a hit: from lights, from the environment, and the unoccluded share of the ambient. */
+/* The light that falls on a hit: from lights and the environment, and the unoccluded share of the ambient. */
 #ifndef ORACLE_GATHER_H
 #define ORACLE_GATHER_H
 

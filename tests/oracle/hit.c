@@ -57,7 +57,8 @@ static int crossings_ahead(const Primitive *primitive, const Ray *ray, Line *loc
     return count;
 }
 
-static void fill_hit(const Scene *scene, const Ray *ray, const Line *local, const Crossing *crossing, Hit *hit)
+static void fill_hit(const Scene *scene, const Ray *ray, const Line *local, const Crossing *crossing,
+                     Hit *hit)
 {
     const Transform *to_local = &hit->primitive->to_local;
     hit->t = crossing->t;

@@ -24,8 +24,8 @@ typedef struct Hit {
 } Hit;
 
 bool hit_closest(const Scene *scene, const Ray *ray, Hit *hit);
-/* Product of k_t over every surface within the distance, but for the area light that the ray goes to: its index, or
- * -1. */
+/* Product of k_t over every surface within the distance, but for the area light that the ray goes to: its
+ * index, or -1. */
 Vec hit_transmittance(const Scene *scene, const Ray *ray, real distance, int light);
 /* Whether any surface, also one that transmits, is within the distance. */
 bool hit_any(const Scene *scene, const Ray *ray, real distance);

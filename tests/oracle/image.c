@@ -43,7 +43,8 @@ static Image *read_png(Store *store, const char *path, FILE *file)
         die("%s: libpng could not read it", path);
     png_init_io(png, file);
     png_read_info(png, info);
-    /* Palettes to their colors, fewer than 8 bits to 8 by repeating them, which keeps the share of the largest. */
+    /* Palettes to their colors, fewer than 8 bits to 8 by repeating them, which keeps the share of the
+     * largest. */
     png_set_expand(png);
     png_set_strip_alpha(png);
     png_set_interlace_handling(png);

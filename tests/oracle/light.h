@@ -12,9 +12,11 @@ typedef struct Arrival {
 } Arrival;
 
 bool light_is_area(const Light *light);
-/* False where the light gives nothing at p. `s` is the place on an area light: the mean over the square counts. */
+/* False where the light gives nothing at p. `s` is the place on an area light: the mean over the square
+ * counts. */
 bool light_arrives(const Light *light, Vec p, Square s, Arrival *arrival);
-/* Radiance of an area light's surface towards where a ray of direction d comes from; normal is the outward one. */
+/* Radiance of an area light's surface towards where a ray of direction d comes from; normal is the outward
+ * one. */
 Vec light_seen(const Light *light, Vec d, Vec normal);
 
 #endif

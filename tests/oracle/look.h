@@ -1,5 +1,5 @@
-/* What a material is at one point, its textures looked up, and how it scatters light there (sections 4 and 5). Knows
- * nothing of lights and rays. */
+/* What a material is at one point, its textures looked up, and how it scatters light there (sections 4 and
+ * 5). Knows nothing of lights and rays. */
 #ifndef ORACLE_LOOK_H
 #define ORACLE_LOOK_H
 

@@ -72,6 +72,8 @@ static void parse_render(Parser *parser)
             parse_occlusion(parser);
         else if (parse_accept(parser, "environment_samples"))
             parse_number(parser);
+        else if (parse_accept(parser, "environment_lighting") && parse_accept(parser, "sampled"))
+            continue;
         else if (!(parse_accept(parser, "integrator") && parse_accept(parser, "whitted")))
             parse_unknown(parser, "property");
     }

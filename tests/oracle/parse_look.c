@@ -114,7 +114,7 @@ void parse_material(Parser *parser)
             material.emission = parse_paint(parser);
         else if (parse_accept(parser, "normal_map"))
             material.normal_map = parse_texture_name(parser);
-        else if (!(material.pbr ? parse_pbr(parser, &material) : parse_phong(parser, &material, &has_ambient)))
+        else if (material.pbr ? !parse_pbr(parser, &material) : !parse_phong(parser, &material, &has_ambient))
             parse_unknown(parser, "property");
     }
     if (!has_ambient)

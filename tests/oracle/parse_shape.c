@@ -164,7 +164,8 @@ static bool parse_start(Parser *parser, Item *item, ShapeText *text)
 bool parse_item(Parser *parser, Item *item)
 {
     ShapeText text = {.smooth = SMOOTH_FILE};
-    *item = (Item){.material = MATERIAL_NONE, .light = -1, .placed = transform_identity(), .shape = {.caps = true}};
+    *item = (Item){.material = MATERIAL_NONE, .light = -1, .placed = transform_identity(),
+                   .shape = {.caps = true}};
     if (!parse_start(parser, item, &text))
         return false;
     parse_open(parser);

@@ -1,12 +1,12 @@
-/* Point sets over the unit square for the integrals that clrt estimates by random points, and their maps to disks and
- * hemispheres. Knows nothing of scenes. */
+/* Point sets over the unit square for the integrals that clrt estimates by random points, and their maps to
+ * disks and hemispheres. Knows nothing of scenes. */
 #ifndef ORACLE_QUADRATURE_H
 #define ORACLE_QUADRATURE_H
 
 #include "vec.h"
 
-/* A lattice of `count` points (i, i times the golden ratio), moved by a shift of its own for each place, so that its
- * error at neighbouring places differs and the mean over a pixel's positions is better than each. */
+/* A lattice of `count` points (i, i times the golden ratio), moved by a shift of its own for each place, so
+ * that its error at neighbouring places differs and the mean over a pixel's positions is better than each. */
 typedef struct Lattice {
     int count;
     real shift[2];

@@ -122,5 +122,6 @@ Surface cone_surface(const Shape *shape, Vec p, int patch)
     Vec dv = scaled(shape->normal, shape->height);
     if (length(across) > 0)
         dv = add(dv, scaled(normalized(across), shape->top_radius - shape->radius));
-    return (Surface){n, n, turn(dot(across, shape->t2), dot(across, shape->t1)), height / shape->height, du, dv};
+    real u = turn(dot(across, shape->t2), dot(across, shape->t1));
+    return (Surface){n, n, u, height / shape->height, du, dv};
 }

@@ -30,7 +30,8 @@ Ray camera_ray(const Camera *camera, real px, real py, Vec lens)
         return (Ray){add(camera->position, offset), scaled(camera->w, -1), NULL, 0};
     if (camera->aperture == 0)
         return (Ray){camera->position, normalized(sub(offset, camera->w)), NULL, 0};
-    Vec start = add(scaled(camera->u, lens.x * camera->aperture), scaled(camera->v, lens.y * camera->aperture));
+    lens = scaled(lens, camera->aperture);
+    Vec start = add(scaled(camera->u, lens.x), scaled(camera->v, lens.y));
     Vec through = scaled(sub(offset, camera->w), camera->focus);
     return (Ray){add(camera->position, start), normalized(sub(through, start)), NULL, 0};
 }

@@ -31,20 +31,31 @@ static const struct {
     {FEATURE_CYLINDER, {"intersect_cylinder", "surface_cylinder", NULL}},
     {FEATURE_CONE, {"intersect_cone", "surface_cone", NULL}},
     {FEATURE_TORUS, {"intersect_torus", "surface_torus", "torus_value"}},
+    {FEATURE_RECTANGLE, {"intersect_rectangle", "surface_rectangle", NULL}},
     {FEATURE_TRIANGLE, {"intersect_triangle", "surface_triangle", NULL}},
     {FEATURE_TRIANGLE_EXTRA, {"hit_interpolate", NULL, NULL}},
     {FEATURE_MESH, {"test_block", "mesh_hit_make", "mesh_runs"}},
     {FEATURE_MESH_NORMALS, {"mesh_normal", "mesh_normals", NULL}},
     {FEATURE_MESH_UVS, {"mesh_uv", "mesh_uvs", NULL}},
-    {FEATURE_UV, {"surface_uv", "hit.u", NULL}},
-    {FEATURE_CHECKER, {"hit->u_whole", NULL, NULL}},
+    {FEATURE_UV, {"surface_uv", "hit.at.u", NULL}},
+    {FEATURE_CHECKER, {"cell_parity(at->u_whole", NULL, NULL}},
     {FEATURE_CHECKER3D, {"object_point", "inset", NULL}},
-    {FEATURE_LIGHTS, {"shade_lights", "shade_light", "light_sample"}},
+    {FEATURE_IMAGE, {"image_color", "tile_place", "texels"}},
+    {FEATURE_NORMAL_MAP, {"mapped_normal", "surface_tangents", "tangent_u"}},
+    {FEATURE_LIGHTS, {"shade_lights", "light_ray", NULL}},
     {FEATURE_POINT, {NULL, NULL, NULL}}, // shares all with spots: asked of scenes without either, below
     {FEATURE_DIRECTIONAL, {"travel", NULL, NULL}},
     {FEATURE_SPOT, {"versine_outer", "soft", NULL}},
+    {FEATURE_SPHERE_LIGHT, {"sphere_light_sample", "half_chord", NULL}},
+    {FEATURE_RECTANGLE_LIGHT, {"rectangle_light_sample", "to_corner", NULL}},
+    {FEATURE_OCCLUSION, {"occlusion_ray", NULL, NULL}},
+    {FEATURE_ENVIRONMENT, {"environment_radiance", "environment_texels", NULL}},
+    {FEATURE_ENVIRONMENT_LIGHT, {"environment_ray", "environment_sample", "draw_index"}},
+    {FEATURE_PREFILTERED, {"hit_prefiltered", "prefiltered_map", NULL}},
+    {FEATURE_HIT_RANDOM, {"hit_random", "path_begin", "PATH"}},
     {FEATURE_SHADOWS, {"intersect_shadow", "shadow_batch", "SHADOW_ORG"}},
     {FEATURE_TRANSMITTANCE, {"transmit_shadows", "last_primitive", "follows_last"}},
+    {FEATURE_TRANSMIT_TEXTURE, {"textured_transmit", NULL, NULL}},
     {FEATURE_SPECULAR, {"MATERIAL_SHININESS", "MATERIAL_SPECULAR", NULL}},
     {FEATURE_PHONG, {"lobe_phong", NULL, NULL}},
     {FEATURE_BLINN, {"lobe_blinn", NULL, NULL}},
@@ -68,7 +79,7 @@ static const struct {
 
 static const FeatureSet shapes = BIT(SPHERE) | BIT(GIANT_SPHERE) | BIT(ELLIPSOID) | BIT(PLANE) | BIT(BOX) |
                                  BIT(TETRAHEDRON) | BIT(DISK) | BIT(CYLINDER) | BIT(CONE) | BIT(TORUS) |
-                                 BIT(TRIANGLE);
+                                 BIT(TRIANGLE) | BIT(RECTANGLE);
 
 // Arrays among the arguments of the kernel, and features any of which asks for them.
 static const struct {
@@ -76,8 +87,12 @@ static const struct {
     FeatureSet features;
 } arguments[] = {
     {"primitives", BIT(SURFACES)}, {"infos", BIT(SURFACES)},  {"materials", BIT(SURFACES)},
-    {"nodes", BIT(BVH)},           {"lights", BIT(LIGHTS)},   {"textures", BIT(CHECKER) | BIT(CHECKER3D)},
+    {"nodes", BIT(BVH)},           {"lights", BIT(LIGHTS)},   {"textures", BIT(CHECKER) | BIT(CHECKER3D) | BIT(IMAGE)},
+    {"texels", BIT(IMAGE)},
     {"frames", BIT(CHECKER3D)},    {"film_low", BIT(SAMPLES)}, {"extras", BIT(TRIANGLE_EXTRA)},
+    {"environment", BIT(ENVIRONMENT)}, {"environment_texels", BIT(ENVIRONMENT)},
+    {"environment_cdf", BIT(ENVIRONMENT_LIGHT)}, {"environment_edges", BIT(ENVIRONMENT_LIGHT)},
+    {"environment_levels", BIT(PREFILTERED)},
     {"blocks", BIT(MESH)},         {"mesh_runs", BIT(MESH)},  {"mesh_normals", BIT(MESH_NORMALS)},
     {"quantiles", BIT(FILTER_TABLE)}, {"mesh_uvs", BIT(MESH_UVS)},   {"mesh_indices", BIT(MESH_NORMALS) | BIT(MESH_UVS)},
 };

@@ -1,6 +1,6 @@
 // Same scene, same bytes: whatever the limit of memory, the crop, the number of threads, the shape of the
-// kernels and the run, on three scenes that together have every feature, one of them with few and with many
-// samples, and on one of nothing but meshes.
+// kernels and the run, on three scenes, one of them with few and with many samples, and on one of nothing
+// but meshes, that together have every feature.
 #include "meshes.h"
 #include "scenes.h"
 #include "support.h"
@@ -24,14 +24,16 @@ static Layout *layout_of_meshes(void)
     char *text = text_of(
         "image { size 100 76 }\n"
         "camera { position 0.5 1.5 6 look_at 0 0 0 fov 40 }\n"
-        "background 0.125 0.25 0.375\n"
+        "render { environment_lighting prefiltered }\n"
+        "environment { file \"sky.hdr\" intensity 0.75 }\n"
         "light point { position -4 6 5 intensity 0.75 }\n"
         "light directional { direction 1 -2 -1 intensity 0.25 }\n"
         "material skin phong { diffuse 0.5 0.375 0.25 specular 0.25 reflect 0.25 }\n"
         "material clear phong { diffuse 0.125 transmit 0.75 reflect 0.25 ior 1.25 }\n"
+        "material wax pbr { base_color 0.75 0.625 0.5 roughness 0.375 }\n"
         "mesh { file \"%s\" smooth on material skin translate -0.75 0 0 }\n"
         "mesh { file \"%s\" material clear scale 0.75 rotate 1 1 1 40 translate 1 -0.25 1 }\n"
-        "mesh { file \"%s\" translate 0 0 -3 }\n",
+        "mesh { file \"%s\" translate 0 0 -3 material wax }\n",
         ball, ball, soup);
     Layout *layout = layout_of(text);
     free(text);
@@ -52,7 +54,9 @@ static void test_every_feature(void **state)
 {
     const Fixture *f = *state;
     const FeatureSet all = feature_bit(FEATURE_COUNT) - 1;
-    const FeatureSet have = f->layouts[0]->features | f->layouts[1]->features | f->layouts[2]->features;
+    FeatureSet have = 0;
+    for (int k = 0; k < SCENES; k++)
+        have |= f->layouts[k]->features;
     for (Feature feature = 0; feature < FEATURE_COUNT; feature++)
         if (!features_have(have, feature))
             fail_msg("no scene has %s", feature_name(feature));

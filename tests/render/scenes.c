@@ -17,7 +17,9 @@ const char scene_glass[] =
     "material glass phong { diffuse 0 specular 0.5 shininess 100 reflect 1\n"
     "    transmit 0.875 1 0.9375 fresnel on }\n"
     "material veil phong { diffuse 0.125 0.25 0.5 transmit 0.5 0.625 0.75 reflect 0.25 ior 1.25 }\n"
-    "material lamp phong { emission 0.5 0.25 0.125 diffuse 0.25 }\n"
+    "texture skin image { file \"skin.png\" scale 2 1 }\n"
+    "texture dents image { file \"dents.png\" filter nearest }\n"
+    "material lamp phong { emission 0.5 0.25 0.125 diffuse skin normal_map dents }\n"
     "material tint phong { diffuse bands transmit 0.25 0.5 0.125 ior 1 }\n"
     "sphere { center P(0 -6400000 0) radius ~6400000 material ground }\n"
     "plane { point P(0 0 -4) normal D(0 0 1) material wall }\n"
@@ -71,17 +73,23 @@ const char scene_toys[] =
 const char scene_studio[] =
     "image { size 80 60 samples 2 filter tent }\n"
     "camera { position P(1 2 6) look_at P(0 0.5 0) up D(0 1 0) fov 40 aperture ~0.125 }\n"
-    "render { max_depth 4 }\n"
+    "render { max_depth 4 ambient_occlusion 2 ~3 environment_samples 3 }\n"
     "ambient 0.125\n"
+    "environment { file \"sky.hdr\" intensity 0.5 0.625 0.75 rotate 40 }\n"
     "light point { position P(-3 5 4) intensity 2 }\n"
+    "light sphere { center P(-0.5 3 -1.5) radius ~0.5 radiance 4 3 2 samples 2 }\n"
+    "light rectangle { corner P(2 3 1) edge1 L(-0.5 0 1) edge2 L(0.75 -0.5 0.25) radiance 6 }\n"
+    "material clay phong { diffuse 0.625 reflect 0.125 }\n"
     "material stone pbr { base_color 0.5 0.375 0.25 roughness 0.75 occlusion 0.5 }\n"
     "material gold pbr { base_color 0.875 0.625 0.25 metallic 1 roughness 0.25 }\n"
     "material chrome pbr { base_color 0.75 metallic 1 roughness 0 }\n"
-    "material resin pbr { base_color 0.5 0.75 0.625 roughness 0.125 transmit 0.75 }\n"
+    "texture stains checker { colors 0.5 0.75 0.625  0.75 0.375 0.25 scale 6 3 }\n"
+    "material resin pbr { base_color stains roughness 0.125 transmit 0.75 }\n"
     "plane { point P(0 0 0) normal D(0 1 0) material stone }\n"
     "sphere { center P(-1.5 0.75 0) radius ~0.75 material gold }\n"
     "sphere { center P(0 0.5 1.5) radius ~0.5 material resin }\n"
-    "box { center P(1.25 0.5 -0.5) size ~1 ~1 ~1 material chrome }\n";
+    "box { center P(1.25 0.5 -0.5) size ~1 ~1 ~1 material chrome }\n"
+    "sphere { center P(1.25 0.375 1.25) radius ~0.375 material clay }\n";
 
 // A marked triple at *text, behind its letter and parenthesis; moves *text behind it.
 static Vec3 read_triple(const char **text)

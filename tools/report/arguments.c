@@ -32,7 +32,8 @@ const char *arguments_usage(void)
 {
     return "usage: clrt-report [options] SCENE...\n"
            "\n"
-           "Measures how fast clrt renders the scenes and how wrong the pictures are: a table, and a folder with\n"
+           "Measures how fast clrt renders the scenes and how wrong the pictures are: a table, and a "
+           "folder with\n"
            "report.html, report.json, CSV, plots and maps.\n"
            "\n"
            "      --out DIR         the folder; a report that is there is replaced [report]\n"
@@ -47,7 +48,8 @@ const char *arguments_usage(void)
            "      --runs N          warm runs of each kind, and seeds, at least 2 [5]\n"
            "      --cold-runs N     runs with empty kernel caches [as --runs]\n"
            "      --reference-samples N\n"
-           "                        of the converged reference [32 times the most of --samples, at least 128]\n"
+           "                        of the converged reference [32 times the most of --samples, at least "
+           "128]\n"
            "      --reference-seconds S\n"
            "                        render it in double precision if that takes no longer [120]\n"
            "      --features[=LIST] measure the cost of each feature of the language added alone, too\n"
@@ -59,7 +61,8 @@ const char *arguments_usage(void)
            "  -h, --help            this text\n"
            "      --version         the version\n"
            "\n"
-           "Exit status: 0 done, 1 a scene has errors, 2 usage, 3 no device or OpenCL failed, 4 a file could not\n"
+           "Exit status: 0 done, 1 a scene has errors, 2 usage, 3 no device or OpenCL failed, 4 a file "
+           "could not\n"
            "be read or written, 6 out of memory, 130 interrupted.\n";
 }
 
@@ -96,8 +99,8 @@ static bool parse_whole(const char *name, const char *text, u32 low, u32 high, u
 {
     const char *end = text_read_whole(text, value);
     if (!end || *end || *value < low || *value > high)
-        return error_set(error, ERROR_USAGE, "--%s: '%s' is not a whole number from %u to %u", name, text, low,
-                         high);
+        return error_set(error, ERROR_USAGE, "--%s: '%s' is not a whole number from %u to %u", name, text,
+                         low, high);
     return true;
 }
 
@@ -186,7 +189,8 @@ static bool find_math(Mode *mode, Error *error)
         else if (strcmp(word, "--math") == 0 && i + 1 < mode->word_count)
             mode->math = mode->words[i + 1];
     }
-    if (strcmp(mode->math, "exact") == 0 || strcmp(mode->math, "fast") == 0 || strcmp(mode->math, "double") == 0)
+    if (strcmp(mode->math, "exact") == 0 || strcmp(mode->math, "fast") == 0 ||
+        strcmp(mode->math, "double") == 0)
         return true;
     return error_set(error, ERROR_USAGE, "--variant: there is no --math %s", mode->math);
 }
@@ -198,10 +202,11 @@ static bool parse_variant(const char *text, Arena *arena, Arguments *arguments, 
         return error_set(error, ERROR_USAGE, "--variant: '%s' is not NAME=\"OPTIONS\"", text);
     for (const char *c = text; c < equals; c++)
         if (!isalnum((unsigned char)*c) && !strchr("-_", *c))
-            return error_set(error, ERROR_USAGE, "--variant: a name is of letters, digits, - and _, not '%.*s'",
+            return error_set(error, ERROR_USAGE,
+                             "--variant: a name is of letters, digits, - and _, not '%.*s'",
                              (int)(equals - text), text);
-    Mode mode = {.name = arena_copy_text(arena, text, (size_t)(equals - text)), .math = "exact",
-                 .text = equals + 1};
+    Mode mode = {
+        .name = arena_copy_text(arena, text, (size_t)(equals - text)), .math = "exact", .text = equals + 1};
     if (!mode.name)
         return no_memory(error);
     return split_words(arena, &mode, error) && find_math(&mode, error) && add_mode(arguments, mode, error);
@@ -232,7 +237,10 @@ static bool take(int option, const char *value, Arena *arena, Arguments *a, Erro
     case OPTION_REFERENCE_SECONDS: return parse_seconds(value, &a->reference_seconds, error);
     case OPTION_ULP: a->ulp = value; return true;
     case OPTION_PEERS: a->peers = value; return true;
-    case OPTION_FEATURES: a->features = true; a->feature_list = value; return true;
+    case OPTION_FEATURES:
+        a->features = true;
+        a->feature_list = value;
+        return true;
     case OPTION_SELF_TEST: a->self_test = true; return true;
     case OPTION_QUICK: a->quick = true; return true;
     case 'q': a->quiet = true; return true;

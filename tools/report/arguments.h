@@ -9,8 +9,8 @@
 // A way to render that is measured: --math, or a variant.
 typedef struct Mode {
     const char *name;
-    const char *math;        // "exact", "fast", "double"
-    const char *text;        // the options of a variant as given, "" for none
+    const char *math;         // "exact", "fast", "double"
+    const char *text;         // the options of a variant as given, "" for none
     const char *const *words; // the same as arguments
     u32 word_count;
 } Mode;
@@ -23,10 +23,10 @@ typedef struct Arguments {
     Errand errand;
     const char *const *scenes; // of argv
     u32 scene_count;
-    const char *clrt; // NULL: beside this program
+    const char *clrt;                                 // NULL: beside this program
     const char *out, *device, *against, *ulp, *peers; // all but out NULL where not given
-    u32 width, height; // 0: the scene's
-    u64 pixels_max;    // larger pictures are made smaller; 0: no bound
+    u32 width, height;                                // 0: the scene's
+    u64 pixels_max;                                   // larger pictures are made smaller; 0: no bound
     Mode modes[MODES_MAX];
     u32 mode_count;
     u32 samples[SAMPLE_COUNTS_MAX]; // rising

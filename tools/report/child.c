@@ -44,8 +44,8 @@ static void become(const Child *child, int pipe)
     const sigset_t set = held_signals();
     sigprocmask(SIG_UNBLOCK, &set, NULL);
     bool ok = redirect(child->talk_path, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO) &&
-              redirect("/dev/null", O_WRONLY, STDOUT_FILENO) && redirect("/dev/null", O_RDONLY, STDIN_FILENO) &&
-              (!child->folder || chdir(child->folder) == 0);
+              redirect("/dev/null", O_WRONLY, STDOUT_FILENO) &&
+              redirect("/dev/null", O_RDONLY, STDIN_FILENO) && (!child->folder || chdir(child->folder) == 0);
     for (const char *const *entry = child->environment; ok && entry && *entry; entry++)
         ok = putenv((char *)(uintptr_t)*entry) == 0;
     if (ok)

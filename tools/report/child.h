@@ -20,11 +20,12 @@ typedef struct ChildEnd {
     char talk[CHILD_TALK_BYTES]; // the beginning of its standard error, without a last newline
 } ChildEnd;
 
-// From now on interrupts and requests to terminate wait until child_run, which hands them to the child and fails.
+// From now on interrupts and requests to terminate wait until child_run, which hands them to the child and
+// fails.
 void child_hold_signals(void);
 
-// Standard output of the child is dropped. A program that ends with a status other than 0 is no failure of this
-// function. False with ERROR_IO where it cannot be started, ERROR_INTERRUPTED.
+// Standard output of the child is dropped. A program that ends with a status other than 0 is no failure of
+// this function. False with ERROR_IO where it cannot be started, ERROR_INTERRUPTED.
 bool child_run(const Child *child, ChildEnd *end, Error *error);
 
 #endif

@@ -67,13 +67,15 @@ static bool is_column(const json_t *value)
     return !json_is_array(value) || json_array_size(value) == 0 || json_is_string(json_array_get(value, 0));
 }
 
-// The columns of what `shape` has: their names, prefix before them, or the values of `from`, which may lack some.
+// The columns of what `shape` has: their names, prefix before them, or the values of `from`, which may lack
+// some.
 static void put_columns(FILE *file, const json_t *shape, bool names, const json_t *from, const char *prefix,
                         bool *first)
 {
     const char *key;
     json_t *value;
-    json_object_foreach((json_t *)(uintptr_t)shape, key, value) {
+    json_object_foreach((json_t *)(uintptr_t)shape, key, value)
+    {
         char name[NAME_BYTES];
         snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", key);
         if (json_is_object(value)) {
@@ -95,7 +97,8 @@ static json_t *shape_of(const json_t *rows)
     json_t *shape = json_object();
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row) {
+    json_array_foreach(rows, i, row)
+    {
         json_t *copy = json_deep_copy(row); // the groups of a row must not become those of the shape
         json_object_update_recursive(shape, copy);
         json_decref(copy);
@@ -114,7 +117,8 @@ bool csv_write_rows(const json_t *rows, const char *path, Error *error)
     fputs("\n", file);
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row) {
+    json_array_foreach(rows, i, row)
+    {
         first = true;
         put_columns(file, shape, false, row, "", &first);
         fputs("\n", file);
@@ -126,9 +130,10 @@ bool csv_write_rows(const json_t *rows, const char *path, Error *error)
 bool csv_write_convergence(const json_t *rows, const char *path, Error *error)
 {
     static const char *const COLUMNS[] = {
-        "spp", "runs", "rays", "wall_s.median", "wall_s.mad", "kernel_s.median", "kernel_s.mad", "mse", "mse_low",
-        "mse_high", "rmse", "rmse_low", "rmse_high", "relmse", "psnr_db", "flip_mean", "ssim_mean", "bias",
-        "bias_low", "bias_high", "per_mse_wall", "per_mse_kernel", "reason"};
+        "spp",          "runs",      "rays",         "wall_s.median",  "wall_s.mad", "kernel_s.median",
+        "kernel_s.mad", "mse",       "mse_low",      "mse_high",       "rmse",       "rmse_low",
+        "rmse_high",    "relmse",    "psnr_db",      "flip_mean",      "ssim_mean",  "bias",
+        "bias_low",     "bias_high", "per_mse_wall", "per_mse_kernel", "reason"};
     enum { COLUMN_COUNT = sizeof COLUMNS / sizeof COLUMNS[0] };
     FILE *file = open_file(path, error);
     if (!file)
@@ -139,8 +144,10 @@ bool csv_write_convergence(const json_t *rows, const char *path, Error *error)
     fputs("\n", file);
     size_t i, k;
     json_t *row, *point;
-    json_array_foreach(rows, i, row) {
-        json_array_foreach(json_object_get(row, "convergence"), k, point) {
+    json_array_foreach(rows, i, row)
+    {
+        json_array_foreach(json_object_get(row, "convergence"), k, point)
+        {
             put_value(file, doc_at(row, "run.scene"));
             fputc(',', file);
             put_value(file, doc_at(row, "run.device"));
@@ -190,8 +197,9 @@ bool csv_read_peers(const char *path, Peer peers[PEERS_MAX], size_t *count, Erro
             continue;
         ok = *count < PEERS_MAX && read_peer(line, &peers[*count]);
         if (!ok)
-            error_set(error, ERROR_IO, "%s:%u: not a line name,seconds,rmse with numbers above 0, or more than %d",
-                      path, number, PEERS_MAX);
+            error_set(error, ERROR_IO,
+                      "%s:%u: not a line name,seconds,rmse with numbers above 0, or more than %d", path,
+                      number, PEERS_MAX);
         (*count)++;
     }
     fclose(file);

@@ -6,8 +6,9 @@
 
 #include "base/error.h"
 
-// One line an object of the array `rows`, which all have the keys of the first: a column a value, named by its path
-// of keys. Arrays of texts are joined by spaces, other arrays left out, null is empty. False with ERROR_IO.
+// One line an object of the array `rows`, which all have the keys of the first: a column a value, named by
+// its path of keys. Arrays of texts are joined by spaces, other arrays left out, null is empty. False with
+// ERROR_IO.
 bool csv_write_rows(const json_t *rows, const char *path, Error *error);
 
 // One line a point of each row's convergence, with the row's scene, device and mode. False with ERROR_IO.

@@ -1,5 +1,5 @@
-// Doc: the report as one JSON document, which every page, table and plot reads. Places in it are paths of keys
-// with dots between them.
+// Doc: the report as one JSON document, which every page, table and plot reads. Places in it are paths of
+// keys with dots between them.
 #ifndef CLRT_REPORT_DOC_H
 #define CLRT_REPORT_DOC_H
 

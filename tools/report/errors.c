@@ -18,8 +18,8 @@ static bool alike(const Image *a, const Image *b, Error *error)
 {
     if (a->width == b->width && a->height == b->height && a->channels == b->channels)
         return true;
-    return error_set(error, ERROR_IO, "pictures of %ux%ux%u and %ux%ux%u cannot be compared", a->width, a->height,
-                     a->channels, b->width, b->height, b->channels);
+    return error_set(error, ERROR_IO, "pictures of %ux%ux%u and %ux%ux%u cannot be compared", a->width,
+                     a->height, a->channels, b->width, b->height, b->channels);
 }
 
 static int compare_floats(const void *a, const void *b)
@@ -90,7 +90,8 @@ static void add_values(const Image *reference, const Image *test, Distance *dist
     distance->psnr_db = -20 * log10(distance->rmse);
 }
 
-bool errors_compare(const Image *reference, const Image *test, bool perceived, Distance *distance, Error *error)
+bool errors_compare(const Image *reference, const Image *test, bool perceived, Distance *distance,
+                    Error *error)
 {
     *distance = (Distance){.flip_mean = (f64)NAN, .ssim_mean = (f64)NAN};
     if (!alike(reference, test, error))
@@ -165,7 +166,8 @@ bool errors_draw(const Image *reference, const Image *test, const char *path, Er
     f64 most = 0;
     for (size_t i = 0; i < count; i++) {
         for (u32 c = 0; c < channels; c++) {
-            const f64 d = fabs((f64)reference->values[i * channels + c] - (f64)test->values[i * channels + c]);
+            const f64 d =
+                fabs((f64)reference->values[i * channels + c] - (f64)test->values[i * channels + c]);
             if (isnan(d) || d > (f64)largest[i])
                 largest[i] = isnan(d) ? NAN : (f32)fmin(d, 1e30);
         }
@@ -173,8 +175,11 @@ bool errors_draw(const Image *reference, const Image *test, const char *path, Er
     }
     char caption[64];
     snprintf(caption, sizeof caption, "ERROR OF RADIANCE, AT MOST %.3G", most);
-    const HeatMap map = {reference->width, reference->height, largest,
-                         {1e-8, 1, true, {"1E-8", "1E-6", "1E-4", "1E-2", "1"}}, caption};
+    const HeatMap map = {reference->width,
+                         reference->height,
+                         largest,
+                         {1e-8, 1, true, {"1E-8", "1E-6", "1E-4", "1E-2", "1"}},
+                         caption};
     const bool drawn = write_enlarged(&map, path, error);
     free(largest);
     return drawn;

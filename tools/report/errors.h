@@ -16,7 +16,8 @@ typedef struct Distance {
 } Distance;
 
 // perceived: FLIP and SSIM, too, which take longer. False with ERROR_MEMORY, and ERROR_IO for two sizes.
-bool errors_compare(const Image *reference, const Image *test, bool perceived, Distance *distance, Error *error);
+bool errors_compare(const Image *reference, const Image *test, bool perceived, Distance *distance,
+                    Error *error);
 
 // Pixels whose identities, as of --aov id, differ.
 bool errors_count_other(const Image *reference, const Image *test, u64 *pixels, Error *error);
@@ -30,8 +31,8 @@ typedef struct Oddities {
 
 Oddities errors_oddities(const Image *image);
 
-// A heat map of each pixel's largest distance, on the scale that all maps of reports have, as a PNG. False with
-// ERROR_IO or ERROR_MEMORY.
+// A heat map of each pixel's largest distance, on the scale that all maps of reports have, as a PNG. False
+// with ERROR_IO or ERROR_MEMORY.
 bool errors_draw(const Image *reference, const Image *test, const char *path, Error *error);
 
 #endif

@@ -18,9 +18,9 @@ static const f64 NOISE_DEVIATIONS = 3, DEVIATION_OF_MAD = 1.4826;
 
 // One scene through all rounds.
 typedef struct Trial {
-    const char *path;   // NULL: there is no such scene
-    f64 *ns;            // a ray, of each round
-    json_t *stats;      // of the last round
+    const char *path; // NULL: there is no such scene
+    f64 *ns;          // a ray, of each round
+    json_t *stats;    // of the last round
 } Trial;
 
 typedef struct Subject {
@@ -53,7 +53,8 @@ static bool prepare(const Bench *bench, Trial *trial, size_t feature, FeatureTex
     const char *text = feature_scene_text(feature, kind, arena);
     if (!text)
         return true;
-    char *path = text_format(arena, "%s/%s_%s.txt", bench->folder, feature_scene_name(feature), SUFFIXES[kind]);
+    char *path =
+        text_format(arena, "%s/%s_%s.txt", bench->folder, feature_scene_name(feature), SUFFIXES[kind]);
     trial->ns = arena_alloc(arena, bench->rounds, sizeof *trial->ns);
     if (!path || !trial->ns)
         return error_set(error, ERROR_MEMORY, "no memory for scenes of features");
@@ -120,7 +121,8 @@ static bool run_trial(const Bench *bench, Trial *trial, int round, Error *error)
     if (!trial->path)
         return true;
     const bool quick = bench->session->arguments->quick;
-    const Shot shot = {.scene = trial->path, .width = quick ? QUICK_WIDTH : WIDTH,
+    const Shot shot = {.scene = trial->path,
+                       .width = quick ? QUICK_WIDTH : WIDTH,
                        .height = quick ? QUICK_HEIGHT : HEIGHT,
                        .image = text_format(bench->session->arena, "%s/shot.pfm", bench->folder)};
     Shown shown;
@@ -169,9 +171,9 @@ static json_t *trial_to_json(const Trial *trial, const Trial *base, u32 rounds)
     f64 added[1000];
     for (u32 i = 0; i < rounds; i++)
         added[i] = trial->ns[i] - base->ns[i];
-    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "ns_per_ray", doc_spread(trial->ns, rounds), "added_ns_per_ray",
-                     doc_spread(added, rounds), "rays", doc_real(row_rays(trial->stats)), "features",
-                     or_null(json_object_get(trial->stats, "features")), "kernel_hash",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "ns_per_ray", doc_spread(trial->ns, rounds),
+                     "added_ns_per_ray", doc_spread(added, rounds), "rays", doc_real(row_rays(trial->stats)),
+                     "features", or_null(json_object_get(trial->stats, "features")), "kernel_hash",
                      or_null(kernel_hash(trial->stats)));
 }
 
@@ -184,7 +186,8 @@ static json_t *equality(const json_t *a, const json_t *b)
 static json_t *unused_to_json(const Trial *trial, const Trial *base, u32 rounds, f64 control)
 {
     json_t *object = trial_to_json(trial, base, rounds);
-    const f64 added = doc_number(object, "added_ns_per_ray.median"), mad = doc_number(object, "added_ns_per_ray.mad");
+    const f64 added = doc_number(object, "added_ns_per_ray.median"),
+              mad = doc_number(object, "added_ns_per_ray.mad");
     const f64 noise = NOISE_DEVIATIONS * DEVIATION_OF_MAD * fmax(mad, control);
     doc_set(object, "within_noise", json_boolean(fabs(added) <= noise));
     doc_set(object, "noise_ns_per_ray", doc_real(noise));
@@ -219,7 +222,8 @@ bool feature_costs_measure(Session *session, json_t *features, Error *error)
     bench.folder = text_format(session->arena, "%s/features", session->runner.folder);
     if (!bench.folder)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
-    const bool ok = folder_make(bench.folder, error) && prepare_all(&bench, error) && run_rounds(&bench, error);
+    const bool ok =
+        folder_make(bench.folder, error) && prepare_all(&bench, error) && run_rounds(&bench, error);
     if (ok)
         append_results(&bench, features);
     json_decref(bench.base.stats);

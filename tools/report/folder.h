@@ -11,8 +11,8 @@ char *text_format(Arena *arena, const char *format, ...) __attribute__((format(p
 // Makes a folder that is not there; false with ERROR_IO.
 bool folder_make(const char *path, Error *error);
 
-// Removes the folder with all that is in it, without following links; what is not there is no error, and neither
-// is what cannot be removed.
+// Removes the folder with all that is in it, without following links; what is not there is no error, and
+// neither is what cannot be removed.
 void folder_remove(const char *path);
 
 bool folder_exists(const char *path);

@@ -4,8 +4,8 @@
 
 #include "measure.h"
 
-// Writes report.html into the report's folder, where the plots and pictures that the document names are. False with
-// ERROR_IO or ERROR_MEMORY.
+// Writes report.html into the report's folder, where the plots and pictures that the document names are.
+// False with ERROR_IO or ERROR_MEMORY.
 bool html_write(const Session *session, const json_t *report, Error *error);
 
 #endif

@@ -11,10 +11,12 @@ static const char STYLE[] =
     "h2{font-size:24px;margin:56px 0 8px;padding-top:16px;border-top:3px solid #1b1f24}\n"
     "h3{font-size:18px;margin:32px 0 4px}\n"
     "p{max-width:78ch;margin:8px 0}\nli{max-width:78ch}\n"
-    "code{font:14px/1.4 ui-monospace,Consolas,'DejaVu Sans Mono',monospace;background:#f3f4f6;padding:1px 4px;"
+    "code{font:14px/1.4 ui-monospace,Consolas,'DejaVu Sans Mono',monospace;background:#f3f4f6;padding:1px "
+    "4px;"
     "border-radius:3px}\n"
     "table{border-collapse:collapse;margin:12px 0;font-size:14px;font-variant-numeric:tabular-nums}\n"
-    "th,td{padding:4px 10px;text-align:right;border-bottom:1px solid #e3e6ea;vertical-align:top;white-space:nowrap}\n"
+    "th,td{padding:4px 10px;text-align:right;border-bottom:1px solid "
+    "#e3e6ea;vertical-align:top;white-space:nowrap}\n"
     "th{border-bottom:2px solid #1b1f24;font-weight:600;vertical-align:bottom}\n"
     "th:first-child,td:first-child,td.text{text-align:left}\ntd.text{max-width:60ch;white-space:normal}\n"
     "tr.first td{border-top:1px solid #8a929c}\n"
@@ -61,8 +63,8 @@ static void put_scientific(FILE *file, f64 value)
     const char *e = strchr(text, 'e');
     int power = 0;
     sscanf(e + 1, "%d", &power);
-    fprintf(file, "%s%.*s&thinsp;&times;&thinsp;10<sup>%s%d</sup>", value < 0 ? "&minus;" : "", (int)(e - text), text, power < 0 ? "&minus;" : "",
-            power < 0 ? -power : power);
+    fprintf(file, "%s%.*s&thinsp;&times;&thinsp;10<sup>%s%d</sup>", value < 0 ? "&minus;" : "",
+            (int)(e - text), text, power < 0 ? "&minus;" : "", power < 0 ? -power : power);
 }
 
 void page_number(FILE *file, f64 value)

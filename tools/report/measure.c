@@ -5,39 +5,16 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "arithmetic.h"
 #include "doc.h"
 #include "errors.h"
 #include "folder.h"
 #include "hash.h"
 #include "image/pfm.h"
-#include "reference.h"
+#include "job.h"
 #include "row.h"
-#include "series.h"
 
-enum { COUNTS_MAX = SAMPLE_COUNTS_MAX + 1, FIRST_SEED = 1, REFERENCE_SAMPLES_MIN = 128, REFERENCE_FACTOR = 32 };
-
-// A scene in one mode.
-typedef struct Candidate {
-    const Mode *mode;
-    json_t *row;        // borrowed
-    bool available;
-    f64 seconds_a_sample; // of kernels, a sample of all pixels; of a run with one
-    Series cold, warm[COUNTS_MAX];
-} Candidate;
-
-typedef struct Job {
-    Session *session;
-    const char *scene, *name; // name: of the folder in the report
-    const char *folder;       // where that is now
-    u32 width, height;
-    u32 counts[COUNTS_MAX]; // of samples, rising
-    u32 count;
-    u32 own; // index into counts of the scene's own samples, or of the most where those are more
-    Candidate candidates[MODES_MAX];
-    u32 candidate_count;
-    Reference reference;
-    json_t *reference_json;
-} Job;
+enum { FIRST_SEED = 1, REFERENCE_SAMPLES_MIN = 128, REFERENCE_FACTOR = 32 };
 
 void session_say(const Session *session, const char *format, ...)
 {
@@ -49,17 +26,6 @@ void session_say(const Session *session, const char *format, ...)
     vfprintf(stderr, format, list);
     fputc('\n', stderr);
     va_end(list);
-}
-
-static const char *temporary(const Job *job, const char *name)
-{
-    return text_format(job->session->arena, "%s/%s", job->session->runner.folder, name);
-}
-
-static Shot shot_of(const Job *job, const Candidate *candidate, u32 samples)
-{
-    return (Shot){.scene = job->scene, .mode = candidate ? candidate->mode : NULL, .width = job->width,
-                  .height = job->height, .samples = samples, .image = temporary(job, "shot.pfm")};
 }
 
 // ---- what there is to measure ---------------------------------------------------------------
@@ -100,8 +66,11 @@ static bool look(Job *job, Error *error)
 {
     const Arguments *arguments = job->session->arguments;
     Shown shown;
-    Shot shot = {.scene = job->scene, .width = arguments->width, .height = arguments->height, .samples = 1,
-                 .image = temporary(job, "shot.pfm")};
+    Shot shot = {.scene = job->scene,
+                 .width = arguments->width,
+                 .height = arguments->height,
+                 .samples = 1,
+                 .image = job_temporary(job, "shot.pfm")};
     if (!runner_render(&job->session->runner, &shot, &shown, error))
         return false;
     fit_size(job, shown.stats, arguments->pixels_max);
@@ -120,13 +89,14 @@ static bool look(Job *job, Error *error)
 static bool try_candidate(Job *job, Candidate *candidate, Error *error)
 {
     for (u32 i = 0; i < 2; i++) {
-        const Shot shot = shot_of(job, candidate, i ? job->counts[job->own] : 1);
+        const Shot shot = job_shot(job, candidate, i ? job->counts[job->own] : 1);
         Shown shown;
         if (!runner_try(&job->session->runner, &shot, &shown, error))
             return false;
         candidate->available = shown.status == 0;
         if (!candidate->available) {
-            doc_set(candidate->row, "run.unavailable", doc_string(*shown.talk ? shown.talk : "clrt ended in error"));
+            doc_set(candidate->row, "run.unavailable",
+                    doc_string(*shown.talk ? shown.talk : "clrt ended in error"));
             session_say(job->session, "%s: no %s: %s", job->name, candidate->mode->name, shown.talk);
             return shown.status != ERROR_INTERRUPTED || error_set(error, ERROR_INTERRUPTED, "interrupted");
         }
@@ -135,14 +105,6 @@ static bool try_candidate(Job *job, Candidate *candidate, Error *error)
         json_decref(shown.stats);
     }
     return true;
-}
-
-static Candidate *find_candidate(Job *job, const char *name)
-{
-    for (u32 i = 0; i < job->candidate_count; i++)
-        if (strcmp(job->candidates[i].mode->name, name) == 0)
-            return job->candidates[i].available ? &job->candidates[i] : NULL;
-    return NULL;
 }
 
 static bool make_candidates(Job *job, json_t *rows, Error *error)
@@ -157,7 +119,8 @@ static bool make_candidates(Job *job, json_t *rows, Error *error)
             return error_set(error, ERROR_MEMORY, "no memory for a row");
         doc_set(candidate->row, "run.file", doc_string(job->scene));
         ok = try_candidate(job, candidate, error) &&
-             (series_create(&candidate->cold, job->counts[job->own], arguments->cold_runs, job->session->arena) ||
+             (series_create(&candidate->cold, job->counts[job->own], arguments->cold_runs,
+                            job->session->arena) ||
               error_set(error, ERROR_MEMORY, "no memory for a series"));
         for (u32 k = 0; k < job->count && ok; k++)
             ok = series_create(&candidate->warm[k], job->counts[k], arguments->runs, job->session->arena) ||
@@ -181,14 +144,14 @@ static bool make_reference(Job *job, Error *error)
 {
     const Arguments *arguments = job->session->arguments;
     const u32 samples = reference_samples(job);
-    const Candidate *most_exact = find_candidate(job, "double");
+    const Candidate *most_exact = job_find(job, "double");
     const f64 seconds = most_exact ? most_exact->seconds_a_sample * samples * REFERENCE_PARTS : 0;
     const char *math = most_exact && seconds <= arguments->reference_seconds ? "double" : "exact";
-    Shot shot = shot_of(job, NULL, 0);
+    Shot shot = job_shot(job, NULL, 0);
     shot.math = math;
     shot.scene = arguments->against ? arguments->against : job->scene;
-    session_say(job->session, "%s: reference of %u samples in %s arithmetic", job->name, samples * REFERENCE_PARTS,
-                math);
+    session_say(job->session, "%s: reference of %u samples in %s arithmetic", job->name,
+                samples * REFERENCE_PARTS, math);
     if (!reference_make(&job->session->runner, &shot, samples, &job->reference, error))
         return false;
     job->reference_json = reference_to_json(&job->reference, math, samples);
@@ -199,119 +162,11 @@ static bool make_reference(Job *job, Error *error)
                               : error_set(error, ERROR_MEMORY, "no memory for a name");
 }
 
-// ---- arithmetic -----------------------------------------------------------------------------
-
-// Renders and reads; NULL where clrt cannot, with its words in reason.
-static Image *render_image(Job *job, const Shot *shot, const char **reason, Error *error)
-{
-    Shown shown;
-    *reason = NULL;
-    if (!runner_try(&job->session->runner, shot, &shown, error))
-        return NULL;
-    if (shown.status != 0) {
-        *reason = arena_copy_text(job->session->arena, shown.talk, strlen(shown.talk));
-        return NULL;
-    }
-    json_decref(shown.stats);
-    return pfm_image_read(shot->image, error);
-}
-
-// The identities of first hits. clrt writes those of OUT.pfm into OUT.id.pfm.
-static Image *render_ids(Job *job, Shot shot, const char **reason, Error *error)
-{
-    shot.aov = "id";
-    shot.samples = 1;
-    Image *image = render_image(job, &shot, reason, error);
-    if (!image)
-        return NULL;
-    image_destroy(image);
-    const char *path = temporary(job, "shot.id.pfm");
-    return path ? pfm_image_read(path, error) : NULL;
-}
-
-static void set_distance(json_t *into, u32 samples, const Distance *d)
-{
-    doc_set(into, "spp", doc_whole(samples));
-    doc_set(into, "max_ulp", doc_whole(d->max_ulp));
-    doc_set(into, "max_abs", doc_real(d->max_abs));
-    doc_set(into, "p99_abs", doc_real(d->p99_abs));
-    doc_set(into, "rmse", doc_real(d->rmse));
-    doc_set(into, "different_values", doc_whole(d->different_values));
-    doc_set(into, "values", doc_whole(d->values));
-}
-
-// Pixels that show another object, as one sample at their centre tells.
-static bool count_other(Job *job, const Candidate *candidate, Error *error)
-{
-    Shot shot = shot_of(job, candidate, 1);
-    const char *reason;
-    error->code = ERROR_NONE;
-    Image *test = render_ids(job, shot, &reason, error);
-    shot.math = "double";
-    Image *right = test ? render_ids(job, shot, &reason, error) : NULL;
-    u64 pixels = 0;
-    const bool ok = right ? errors_count_other(right, test, &pixels, error) : reason != NULL;
-    if (right && ok) {
-        doc_set(candidate->row, "error.r64.other_object_pixels", doc_whole(pixels));
-        doc_set(candidate->row, "error.r64_one_sample.other_object_pixels", doc_whole(pixels));
-    }
-    image_destroy(right);
-    image_destroy(test);
-    return ok;
-}
-
-// The candidate against the same samples in double.
-static bool compare_arithmetic(Job *job, Candidate *candidate, u32 samples, const char *group, const char *map,
-                               Error *error)
-{
-    json_t *into = doc_at(candidate->row, group);
-    Shot shot = shot_of(job, candidate, samples);
-    const char *reason;
-    Image *test = render_image(job, &shot, &reason, error);
-    shot.math = "double";
-    Image *right = test ? render_image(job, &shot, &reason, error) : NULL;
-    Distance distance;
-    bool ok = right != NULL;
-    if (reason) {
-        doc_set(into, "reason", doc_string(reason));
-        ok = true;
-    } else if (ok) {
-        ok = errors_compare(right, test, false, &distance, error) &&
-             (!map || errors_draw(right, test, map, error));
-        if (ok)
-            set_distance(into, samples, &distance);
-    }
-    image_destroy(right);
-    image_destroy(test);
-    return ok;
-}
-
-static bool measure_arithmetic(Job *job, Candidate *candidate, Error *error)
-{
-    Arena *arena = job->session->arena;
-    if (!find_candidate(job, "double") || strcmp(candidate->mode->math, "double") == 0) {
-        const char *reason = find_candidate(job, "double") ? "this is double itself" : "clrt renders no double here";
-        doc_set(candidate->row, "error.r64.reason", doc_string(reason));
-        doc_set(candidate->row, "error.r64_one_sample.reason", doc_string(reason));
-        return true;
-    }
-    const char *place = text_format(arena, "%s/%s_r64.png", job->name, candidate->mode->name);
-    const char *map = text_format(arena, "%s/%s_r64.png", job->folder, candidate->mode->name);
-    if (!place || !map)
-        return error_set(error, ERROR_MEMORY, "no memory for a name");
-    if (!compare_arithmetic(job, candidate, job->counts[job->own], "error.r64", map, error) ||
-        !compare_arithmetic(job, candidate, 1, "error.r64_one_sample", NULL, error))
-        return false;
-    if (isfinite(doc_number(candidate->row, "error.r64.rmse")))
-        doc_set(candidate->row, "files.map_r64", doc_string(place));
-    return count_other(job, candidate, error);
-}
-
 // ---- times and sampling ---------------------------------------------------------------------
 
 static bool measure_cold(Job *job, Candidate *candidate, Error *error)
 {
-    Shot shot = shot_of(job, candidate, job->counts[job->own]);
+    Shot shot = job_shot(job, candidate, job->counts[job->own]);
     shot.cold = true;
     Shown shown;
     if (!runner_render(&job->session->runner, &shot, &shown, error))
@@ -360,7 +215,7 @@ static bool judge(Job *job, Candidate *candidate, u32 k, const Image *image, Err
 
 static bool measure_warm(Job *job, Candidate *candidate, u32 k, u32 run, Error *error)
 {
-    Shot shot = shot_of(job, candidate, job->counts[k]);
+    Shot shot = job_shot(job, candidate, job->counts[k]);
     shot.seed_given = true;
     shot.seed = FIRST_SEED + run;
     Shown shown;
@@ -412,15 +267,17 @@ static void finish_row(Job *job, const Candidate *candidate)
     doc_set(row, "time.warm", series_times(&candidate->warm[job->own]));
     set_spp(row, job->counts[job->own]);
     for (u32 k = 0; k < job->count; k++)
-        json_array_append_new(json_object_get(row, "convergence"), series_point(&candidate->warm[k], &job->reference));
+        json_array_append_new(json_object_get(row, "convergence"),
+                              series_point(&candidate->warm[k], &job->reference));
     const json_t *own = json_array_get(json_object_get(row, "convergence"), job->own);
     series_set_rinf(row, own, job->reference_json);
-    series_set_efficiency(row, own);
+    series_set_efficiency(row, own, candidate->warm, job->count, job->session->arena);
     if (json_is_null(doc_at(row, "budget.e_arith")))
         doc_set(row, "budget.e_arith", doc_real(doc_number(row, "error.r64.max_abs")));
-    const Candidate *exact = find_candidate(job, "exact");
+    const Candidate *exact = job_find(job, "exact");
     if (exact) {
-        doc_set(row, "time.kernel_to_exact", series_ratio(&candidate->warm[job->count - 1], &exact->warm[job->count - 1]));
+        doc_set(row, "time.kernel_to_exact",
+                series_ratio(&candidate->warm[job->count - 1], &exact->warm[job->count - 1]));
         doc_set(row, "time.kernel_to_exact_spp", doc_whole(job->counts[job->count - 1]));
     }
     const f64 rays = doc_number(row, "rays.total"), seconds = doc_number(row, "time.warm.kernel_s.median");
@@ -431,7 +288,7 @@ static void finish_row(Job *job, const Candidate *candidate)
 // As a display shows it, by the scene's own exposure and tone map.
 static bool draw_picture(Job *job, Candidate *candidate, Error *error)
 {
-    Shot shot = shot_of(job, candidate, job->counts[job->own]);
+    Shot shot = job_shot(job, candidate, job->counts[job->own]);
     shot.image = text_format(job->session->arena, "%s/%s.png", job->folder, candidate->mode->name);
     const char *place = text_format(job->session->arena, "%s/%s.png", job->name, candidate->mode->name);
     if (!shot.image || !place)
@@ -452,8 +309,8 @@ static bool measure_all(Job *job, json_t *rows, Error *error)
         return false;
     for (u32 i = 0; i < job->candidate_count; i++) {
         Candidate *candidate = &job->candidates[i];
-        if (candidate->available && (!draw_picture(job, candidate, error) ||
-                                     !measure_arithmetic(job, candidate, error)))
+        if (candidate->available &&
+            (!draw_picture(job, candidate, error) || !arithmetic_measure(job, candidate, error)))
             return false;
     }
     if (!measure_runs(job, error))
@@ -468,7 +325,7 @@ bool measure_scene(Session *session, const char *scene, const char *name, json_t
 {
     Job job = {.session = session, .scene = scene, .name = name};
     job.folder = text_format(session->arena, "%s/%s", session->out, name);
-    if (!job.folder || !temporary(&job, "shot.pfm"))
+    if (!job.folder || !job_temporary(&job, "shot.pfm"))
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     const bool ok = folder_make(job.folder, error) && measure_all(&job, rows, error);
     reference_destroy(&job.reference);

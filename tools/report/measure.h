@@ -14,8 +14,8 @@ typedef struct Session {
     const char *out; // the folder of the report, still under its temporary name
 } Session;
 
-// Appends a row a mode to rows. `name` is of the scene's folder in the report, which is made. False with clrt's own
-// status as the code where it fails in every mode, with ERROR_IO and ERROR_MEMORY.
+// Appends a row a mode to rows. `name` is of the scene's folder in the report, which is made. False with
+// clrt's own status as the code where it fails in every mode, with ERROR_IO and ERROR_MEMORY.
 bool measure_scene(Session *session, const char *scene, const char *name, json_t *rows, Error *error);
 
 // A line of progress on standard error, unless quiet.

@@ -8,25 +8,25 @@
 #include "folder.h"
 
 // Colours that people with any colour vision can tell apart (Okabe and Ito), dark enough for white.
-static const char STYLE[] =
-    "set encoding utf8\n"
-    "set linetype 1 lc rgb '#0072b2' lw 2 pt 7 ps 0.7\n"
-    "set linetype 2 lc rgb '#d55e00' lw 2 pt 5 ps 0.7\n"
-    "set linetype 3 lc rgb '#009e73' lw 2 pt 9 ps 0.9\n"
-    "set linetype 4 lc rgb '#cc79a7' lw 2 pt 13 ps 0.9\n"
-    "set linetype 5 lc rgb '#e69f00' lw 2 pt 11 ps 0.9\n"
-    "set linetype 6 lc rgb '#56b4e9' lw 2 pt 4 ps 0.9\n"
-    "set linetype 7 lc rgb '#7a6a00' lw 2 pt 6 ps 0.9\n"
-    "set linetype 8 lc rgb '#444444' lw 2 pt 8 ps 0.9\n"
-    "set linetype cycle 8\n"
-    "set border lc rgb '#444444' lw 1\n"
-    "set grid lc rgb '#dddddd' lw 1 lt 1\n"
-    "set tics nomirror\n"
-    "set key opaque\n";
+static const char STYLE[] = "set encoding utf8\n"
+                            "set linetype 1 lc rgb '#0072b2' lw 2 pt 7 ps 0.7\n"
+                            "set linetype 2 lc rgb '#d55e00' lw 2 pt 5 ps 0.7\n"
+                            "set linetype 3 lc rgb '#009e73' lw 2 pt 9 ps 0.9\n"
+                            "set linetype 4 lc rgb '#cc79a7' lw 2 pt 13 ps 0.9\n"
+                            "set linetype 5 lc rgb '#e69f00' lw 2 pt 11 ps 0.9\n"
+                            "set linetype 6 lc rgb '#56b4e9' lw 2 pt 4 ps 0.9\n"
+                            "set linetype 7 lc rgb '#7a6a00' lw 2 pt 6 ps 0.9\n"
+                            "set linetype 8 lc rgb '#444444' lw 2 pt 8 ps 0.9\n"
+                            "set linetype cycle 8\n"
+                            "set border lc rgb '#444444' lw 1\n"
+                            "set grid lc rgb '#dddddd' lw 1 lt 1\n"
+                            "set tics nomirror\n"
+                            "set key opaque\n";
 
 static FILE *open_file(const Plot *plot, const char *suffix, Error *error)
 {
-    const char *path = text_format(plot->session->arena, "%s/plots/%s.%s", plot->session->out, plot->name, suffix);
+    const char *path =
+        text_format(plot->session->arena, "%s/plots/%s.%s", plot->session->out, plot->name, suffix);
     FILE *file = path ? fopen(path, "wb") : NULL;
     if (!path)
         error_set(error, ERROR_MEMORY, "no memory for a name");
@@ -101,8 +101,8 @@ bool plot_close(Plot *plot, json_t *plots, const char *scene, const char *kind, 
         return false;
     if (there && end.status != 0)
         session_say(session, "gnuplot cannot draw %s: %s", plot->name, end.talk);
-    json_array_append_new(plots, json_pack("{s:s, s:o, s:s, s:o}", "name", plot->name, "scene", doc_string(scene),
-                                           "kind", kind, "file",
+    json_array_append_new(plots, json_pack("{s:s, s:o, s:s, s:o}", "name", plot->name, "scene",
+                                           doc_string(scene), "kind", kind, "file",
                                            doc_string(there && end.status == 0 ? file : NULL)));
     return true;
 }

@@ -7,6 +7,7 @@
 #include "doc.h"
 #include "folder.h"
 #include "plot.h"
+#include "plots_overall.h"
 
 enum { POINTS_MAX = 1024 };
 
@@ -26,8 +27,8 @@ static void widen(Range *range, f64 value)
     range->high = fmax(range->high, value);
 }
 
-// An axis from below the lowest to above the highest value, with labels at 1, 2 and 5 of each power of ten, or at
-// the powers alone where those are many.
+// An axis from below the lowest to above the highest value, with labels at 1, 2 and 5 of each power of ten,
+// or at the powers alone where those are many.
 static void put_axis(FILE *script, char axis, Range range, f64 margin)
 {
     if (!(range.low <= range.high))
@@ -49,6 +50,10 @@ static void put_axis(FILE *script, char axis, Range range, f64 margin)
 
 // ---- error against time ---------------------------------------------------------------------
 
+typedef struct Point {
+    f64 seconds, rmse;
+} Point;
+
 static bool is_of(const json_t *row, const char *scene)
 {
     const char *name = doc_text(row, "run.scene");
@@ -59,9 +64,8 @@ static bool has_error(const json_t *row)
 {
     size_t i;
     json_t *point;
-    json_array_foreach(json_object_get(row, "convergence"), i, point)
-        if (doc_number(point, "rmse") > 0)
-            return true;
+    json_array_foreach(json_object_get(row, "convergence"), i,
+                       point) if (doc_number(point, "rmse") > 0) return true;
     return false;
 }
 
@@ -70,7 +74,8 @@ static void put_convergence(FILE *data, const json_t *row)
 {
     size_t i;
     json_t *point;
-    json_array_foreach(json_object_get(row, "convergence"), i, point) {
+    json_array_foreach(json_object_get(row, "convergence"), i, point)
+    {
         const f64 rmse = doc_number(point, "rmse");
         f64 low = doc_number(point, "rmse_low"), high = doc_number(point, "rmse_high");
         if (!(rmse > 0))
@@ -89,29 +94,30 @@ static void put_panel(FILE *script, const json_t *rows, const char *scene, int c
     size_t i, k;
     json_t *row, *point;
     Range seconds = NO_RANGE, errors = NO_RANGE;
-    json_array_foreach(rows, i, row)
-        json_array_foreach(json_object_get(row, "convergence"), k, point)
-            if (is_of(row, scene) && doc_number(point, "rmse") > 0) {
-                widen(&seconds, doc_number(point, column == 1 ? "wall_s.median" : "kernel_s.median"));
-                widen(&errors, doc_number(point, "rmse"));
-                widen(&errors, doc_number(point, "rmse_low"));
-                widen(&errors, doc_number(point, "rmse_high"));
-            }
+    Point start = {0, 0};
+    json_array_foreach(rows, i, row) json_array_foreach(
+        json_object_get(row, "convergence"), k, point) if (is_of(row, scene) && doc_number(point, "rmse") > 0)
+    {
+        const f64 at = doc_number(point, column == 1 ? "wall_s.median" : "kernel_s.median");
+        start = start.rmse > 0 ? start : (Point){at, doc_number(point, "rmse")};
+        widen(&seconds, at);
+        widen(&errors, doc_number(point, "rmse"));
+        widen(&errors, doc_number(point, "rmse_low"));
+        widen(&errors, doc_number(point, "rmse_high"));
+    }
     put_axis(script, 'x', seconds, 1.4);
     put_axis(script, 'y', errors, 1.4);
     fprintf(script,
             "set title '%s'\nset xlabel 'seconds (median)'\nset ylabel 'RMSE of radiance'\n"
-            "stats data using (log($%d)):(log($3)) index 0 nooutput name 'A'\n"
-            "half(x) = exp(A_max_y) * (x / exp(A_min_x))**-0.5\nplot half(x) lc rgb '#999999' lw 1.5 dt 2 title "
-            "'slope -1/2'",
-            what, column);
+            "plot %.6g * (x / %.6g)**-0.5 lc rgb '#999999' lw 1.5 dt 2 title 'slope -1/2'",
+            what, start.rmse, start.seconds);
     int index = 0;
-    json_array_foreach(rows, i, row)
-        if (is_of(row, scene) && has_error(row)) {
-            fprintf(script, ", data index %d using %d:3:4:5 with yerrorlines lt %d title '%s'", index, column,
-                    index + 1, doc_text(row, "run.mode"));
-            index++;
-        }
+    json_array_foreach(rows, i, row) if (is_of(row, scene) && has_error(row))
+    {
+        fprintf(script, ", data index %d using %d:3:4:5 with yerrorlines lt %d title '%s'", index, column,
+                index + 1, doc_text(row, "run.mode"));
+        index++;
+    }
     fputs("\n", script);
 }
 
@@ -127,9 +133,7 @@ static bool draw_convergence(const Session *session, json_t *report, const char 
     fputs("# wall_s kernel_s rmse rmse_low rmse_high spp\n", plot.data);
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-        if (is_of(row, scene) && has_error(row))
-            put_convergence(plot.data, row);
+    json_array_foreach(rows, i, row) if (is_of(row, scene) && has_error(row)) put_convergence(plot.data, row);
     fputs("set multiplot layout 1,2\nset logscale xy\n", plot.script);
     put_panel(plot.script, rows, scene, 1, "whole run, from the start of the process to its end");
     put_panel(plot.script, rows, scene, 2, "kernels alone");
@@ -138,10 +142,6 @@ static bool draw_convergence(const Session *session, json_t *report, const char 
 }
 
 // ---- Pareto ---------------------------------------------------------------------------------
-
-typedef struct Point {
-    f64 seconds, rmse;
-} Point;
 
 static int compare_points(const void *a, const void *b)
 {
@@ -172,10 +172,12 @@ static int put_pareto(Plot *plot, const json_t *report, const char *scene, bool 
     int blocks = 0;
     FILE *data = plot->data;
     json_t *row, *point;
-    json_array_foreach(json_object_get(report, "rows"), i, row) {
+    json_array_foreach(json_object_get(report, "rows"), i, row)
+    {
         if (!is_of(row, scene) || !has_error(row))
             continue;
-        json_array_foreach(json_object_get(row, "convergence"), k, point) {
+        json_array_foreach(json_object_get(row, "convergence"), k, point)
+        {
             const Point at = {doc_number(point, "wall_s.median"), doc_number(point, "rmse")};
             if (!(at.rmse > 0) || !(at.seconds > 0) || count == POINTS_MAX)
                 continue;
@@ -185,7 +187,8 @@ static int put_pareto(Plot *plot, const json_t *report, const char *scene, bool 
         fputs("\n\n", data);
         blocks++;
     }
-    json_array_foreach(json_object_get(report, "peers"), i, point) {
+    json_array_foreach(json_object_get(report, "peers"), i, point)
+    {
         const Point at = {doc_number(point, "seconds"), doc_number(point, "rmse")};
         fprintf(data, "%.9g %.9g ", at.seconds, at.rmse);
         plot_put_name(data, doc_text(point, "name"));
@@ -212,25 +215,27 @@ static bool draw_pareto(const Session *session, json_t *report, const char *scen
     Plot plot;
     if (!name)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
-    if (!plot_open(&plot, session, name, 860, 460, error))
+    if (!plot_open(&plot, session, name, 1040, 460, error))
         return false;
     fputs("# seconds rmse samples; the last block is the front\n", plot.data);
     const int blocks = put_pareto(&plot, report, scene, peers);
     fprintf(plot.script,
-            "set logscale xy\nset xlabel 'seconds of the whole run (median)'\nset ylabel 'RMSE of radiance'\n"
-            "plot data index %d using 1:2 with steps lc rgb '#999999' lw 2 title 'front: nothing beats it in both'",
+            "set logscale xy\nset key outside right top\nset xlabel 'seconds of the whole run (median)'\nset "
+            "ylabel 'RMSE of radiance'\n"
+            "plot data index %d using 1:2 with steps lc rgb '#999999' lw 2 title 'front: nothing beats it in "
+            "both'",
             blocks + peers);
     size_t i;
     int index = 0;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row)
-        if (is_of(row, scene) && has_error(row)) {
-            fprintf(plot.script,
-                    ", data index %d using 1:2 with points lt %d ps 1.2 title '%s'"
-                    ", data index %d using 1:2:3 with labels left offset 0.9,0.3 tc lt %d font ',10' notitle",
-                    index, index + 1, doc_text(row, "run.mode"), index, index + 1);
-            index++;
-        }
+    json_array_foreach(json_object_get(report, "rows"), i, row) if (is_of(row, scene) && has_error(row))
+    {
+        fprintf(plot.script,
+                ", data index %d using 1:2 with points lt %d ps 1.2 title '%s'"
+                ", data index %d using 1:2:3 with labels left offset 0.9,0.3 tc lt %d font ',10' notitle",
+                index, index + 1, doc_text(row, "run.mode"), index, index + 1);
+        index++;
+    }
     if (peers)
         fprintf(plot.script,
                 ", data index %d using 1:2 with points lc rgb 'black' pt 2 ps 1.2 title 'other renderers'"
@@ -285,114 +290,28 @@ static bool draw_stages(const Session *session, json_t *report, const char *scen
     size_t i;
     json_t *row;
     for (size_t h = 0; h < 2; h++) {
-        json_array_foreach(json_object_get(report, "rows"), i, row)
-            if (is_of(row, scene) && json_is_null(doc_at(row, "run.unavailable")))
-                put_stages(plot.data, row, HEATS[h]);
+        json_array_foreach(json_object_get(report, "rows"), i,
+                           row) if (is_of(row, scene) && json_is_null(doc_at(row, "run.unavailable")))
+            put_stages(plot.data, row, HEATS[h]);
         fputs("\n\n", plot.data);
     }
-    fputs("set style data histograms\nset style histogram rowstacked\nset style fill solid 1 border rgb 'white'\n"
+    fputs("set style data histograms\nset style histogram rowstacked\nset style fill solid 1 border rgb "
+          "'white'\n"
           "set boxwidth 0.6\nset ylabel 'seconds (median)'\nset yrange [0:*]\nset xtics rotate by -20\n"
           "set multiplot\nset key off\n",
           plot.script);
     for (int h = 0; h < 2; h++) {
         fprintf(plot.script, "set title '%s'\nset lmargin at screen %g\nset rmargin at screen %g\n%splot ",
-                h ? "warm: kernels come from the cache" : "cold: kernel caches are empty", h ? 0.44 : 0.06,
-                h ? 0.74 : 0.36, h ? "set key at screen 0.98, screen 0.85 vertical reverse Left invert\n" : "");
+                h ? "warm: kernels come from the cache" : "cold: kernel caches are empty", h ? 0.4 : 0.06,
+                h ? 0.67 : 0.33,
+                h ? "set key at screen 0.99, screen 0.85 vertical reverse Left invert\n" : "");
         for (size_t b = 0; b < BAR_COUNT; b++)
-            fprintf(plot.script, "%sdata index %d using %zu:xtic(1) lt %zu title '%s'", b ? ", " : "", h, b + 2,
-                    b == 0 ? 8 : b, BARS[b].title);
+            fprintf(plot.script, "%sdata index %d using %zu:xtic(1) lt %zu title '%s'", b ? ", " : "", h,
+                    b + 2, b == 0 ? 8 : b, BARS[b].title);
         fputs("\n", plot.script);
     }
     fputs("unset multiplot\n", plot.script);
     return plot_close(&plot, json_object_get(report, "plots"), scene, "stages", error);
-}
-
-// ---- of the whole report --------------------------------------------------------------------
-
-static void put_feature(FILE *data, const json_t *one)
-{
-    static const char *const PATHS[] = {"used.added_ns_per_ray.median", "used.added_ns_per_ray.mad",
-                                        "unused.added_ns_per_ray.median", "unused.added_ns_per_ray.mad"};
-    plot_put_name(data, doc_text(one, "feature"));
-    for (size_t i = 0; i < 4; i++) {
-        const f64 value = doc_number(one, PATHS[i]);
-        if (isfinite(value))
-            fprintf(data, " %.6g", value);
-        else
-            fputs(" NaN", data);
-    }
-    fputc('\n', data);
-}
-
-static bool draw_features(const Session *session, json_t *report, Error *error)
-{
-    const json_t *features = json_object_get(report, "features");
-    Plot plot;
-    const u32 count = (u32)json_array_size(features);
-    if (count == 0)
-        return true;
-    if (!plot_open(&plot, session, "features", 860, 120 + 24 * count, error))
-        return false;
-    fputs("# feature added_ns mad unused_added_ns mad\n", plot.data);
-    size_t i;
-    json_t *one;
-    json_array_foreach(features, i, one)
-        put_feature(plot.data, one);
-    fprintf(plot.script,
-            "set yrange [%u.5:-0.7]\nset xlabel 'ns a ray more than the scene without it (median and MAD)'\n"
-            "set style fill solid 0.8 noborder\nset key bottom right\nset xzeroaxis\n"
-            "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444' lw 1\n"
-            "plot data using 2:0:(0):2:($0-0.32):($0+0.32):ytic(1) with boxxyerror lc rgb '#0072b2' title 'used',"
-            " data using 2:0:3 with xerrorbars lc rgb '#003a5c' lw 1.5 pt 0 notitle,"
-            " data using 4:0:5 with xerrorbars lc rgb '#d55e00' lw 1.5 pt 7 ps 0.6 title 'declared but unused'\n",
-            count - 1);
-    return plot_close(&plot, json_object_get(report, "plots"), NULL, "features", error);
-}
-
-// The share of a shape's answers in each bin; a block a shape.
-static void put_shape(FILE *data, const json_t *shape)
-{
-    const json_t *bins = json_object_get(shape, "histogram");
-    f64 sum = 0;
-    size_t i;
-    json_t *bin;
-    json_array_foreach(bins, i, bin)
-        sum += doc_number(bin, "count");
-    json_array_foreach(bins, i, bin) {
-        const f64 count = doc_number(bin, "count"), end = doc_number(bin, "ulp");
-        char label[32] = "more";
-        if (isfinite(end))
-            snprintf(label, sizeof label, "%g", end);
-        fprintf(data, "%zu %.9g \"%s\"\n", i, sum > 0 && count > 0 ? count / sum : 0.0, label);
-    }
-    fputs("\n\n", data);
-}
-
-static bool draw_ulp(const Session *session, json_t *report, Error *error)
-{
-    enum { COLUMNS = 3, PANEL_WIDTH = 340, PANEL_HEIGHT = 190 };
-    const json_t *shapes = doc_at(report, "ulp.shapes");
-    const u32 count = (u32)json_array_size(shapes), lines = (count + COLUMNS - 1) / COLUMNS;
-    Plot plot;
-    if (count == 0)
-        return true;
-    if (!plot_open(&plot, session, "ulp", COLUMNS * PANEL_WIDTH, lines * PANEL_HEIGHT, error))
-        return false;
-    fprintf(plot.script,
-            "set multiplot layout %u,%d\nset logscale y\nset yrange [1e-8:2]\nset format y '%%.0e'\nset key off\n"
-            "set style fill solid 0.8 noborder\nset boxwidth 0.8\nset xtics rotate by -60 font ',9'\n"
-            "set ytics font ',9' 100\n",
-            lines, COLUMNS);
-    size_t i;
-    json_t *shape;
-    json_array_foreach(shapes, i, shape) {
-        put_shape(plot.data, shape);
-        fputs("set title ", plot.script);
-        plot_put_name(plot.script, doc_text(shape, "name"));
-        fprintf(plot.script, "\nplot data index %zu using 1:2:xtic(3) with boxes lt 1\n", i);
-    }
-    fputs("unset multiplot\n", plot.script);
-    return plot_close(&plot, json_object_get(report, "plots"), NULL, "ulp", error);
 }
 
 static bool draw_scene(const Session *session, json_t *report, const char *scene, Error *error)
@@ -400,7 +319,8 @@ static bool draw_scene(const Session *session, json_t *report, const char *scene
     bool available = false, errors = false;
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row) {
+    json_array_foreach(json_object_get(report, "rows"), i, row)
+    {
         if (!is_of(row, scene))
             continue;
         available = available || json_is_null(doc_at(row, "run.unavailable"));
@@ -423,11 +343,12 @@ bool plots_make(const Session *session, json_t *report, Error *error)
     bool ok = true;
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row) {
+    json_array_foreach(json_object_get(report, "rows"), i, row)
+    {
         const char *scene = doc_text(row, "run.scene");
         if (ok && scene && strcmp(scene, before) != 0)
             ok = draw_scene(session, report, scene, error);
         before = scene ? scene : before;
     }
-    return ok && draw_features(session, report, error) && draw_ulp(session, report, error);
+    return ok && plots_overall_features(session, report, error) && plots_overall_ulp(session, report, error);
 }

@@ -19,7 +19,8 @@ typedef struct Sums {
 static bool start(Reference *reference, Sums *sums, const Image *like, Error *error)
 {
     reference->mean = image_create(like->width, like->height, like->channels, error);
-    reference->variance = reference->mean ? image_create(like->width, like->height, like->channels, error) : NULL;
+    reference->variance =
+        reference->mean ? image_create(like->width, like->height, like->channels, error) : NULL;
     if (!reference->variance)
         return false;
     sums->count = (size_t)like->width * like->height * like->channels;
@@ -105,9 +106,11 @@ bool image_write(const Image *image, const char *path, Error *error)
     return false;
 }
 
-bool reference_write(const Reference *reference, const char *mean_path, const char *variance_path, Error *error)
+bool reference_write(const Reference *reference, const char *mean_path, const char *variance_path,
+                     Error *error)
 {
-    return image_write(reference->mean, mean_path, error) && image_write(reference->variance, variance_path, error);
+    return image_write(reference->mean, mean_path, error) &&
+           image_write(reference->variance, variance_path, error);
 }
 
 json_t *reference_to_json(const Reference *reference, const char *math, u32 samples)
@@ -118,8 +121,8 @@ json_t *reference_to_json(const Reference *reference, const char *math, u32 samp
     return json_pack("{s:s, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "math", math, "spp",
                      (int)samples * REFERENCE_PARTS, "parts", REFERENCE_PARTS, "first_seed", REFERENCE_SEED,
                      "standard_error", doc_real(reference->standard_error), "level_standard_error",
-                     doc_real(reference->level.standard_error), "seconds", doc_real(reference->seconds), "hash",
-                     doc_string(*hash ? hash : NULL));
+                     doc_real(reference->level.standard_error), "seconds", doc_real(reference->seconds),
+                     "hash", doc_string(*hash ? hash : NULL));
 }
 
 void reference_destroy(Reference *reference)

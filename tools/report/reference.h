@@ -1,5 +1,5 @@
-// Reference: a picture so well sampled that others can be held against it, with how sure it is. It is the mean of
-// independent renders, whose spread tells its standard error.
+// Reference: a picture so well sampled that others can be held against it, with how sure it is. It is the
+// mean of independent renders, whose spread tells its standard error.
 #ifndef CLRT_REPORT_REFERENCE_H
 #define CLRT_REPORT_REFERENCE_H
 
@@ -23,12 +23,13 @@ typedef struct Reference {
     char reason[256];
 } Reference;
 
-// Renders the shot REFERENCE_PARTS times with `samples` each and seeds from REFERENCE_SEED on; its own samples and
-// seed are not read. A clrt that fails is a failure.
+// Renders the shot REFERENCE_PARTS times with `samples` each and seeds from REFERENCE_SEED on; its own
+// samples and seed are not read. A clrt that fails is a failure.
 bool reference_make(Runner *runner, const Shot *shot, u32 samples, Reference *reference, Error *error);
 
 // Writes the mean and the variance as PFM. False with ERROR_IO.
-bool reference_write(const Reference *reference, const char *mean_path, const char *variance_path, Error *error);
+bool reference_write(const Reference *reference, const char *mean_path, const char *variance_path,
+                     Error *error);
 
 // What the report says of it.
 json_t *reference_to_json(const Reference *reference, const char *math, u32 samples);

@@ -52,8 +52,8 @@ static bool check_out(const char *out, Arena *arena, Error *error)
     return error_set(error, ERROR_USAGE, "%s: is there and is no report; it stays as it is", out);
 }
 
-// The scene's file without folders and suffix, in letters, digits, - and _ alone; a number follows where a scene
-// before has the same.
+// The scene's file without folders and suffix, in letters, digits, - and _ alone; a number follows where a
+// scene before has the same.
 static const char *name_of(const Arguments *arguments, u32 index, Arena *arena)
 {
     const char *path = arguments->scenes[index], *slash = strrchr(path, '/');
@@ -87,8 +87,8 @@ static json_t *settings_of(const Arguments *arguments)
     return json_pack("{s:s, s:s, s:b, s:i, s:i, s:o, s:i, s:f, s:f, s:i, s:n}", "made", when, "version",
                      CLRT_VERSION, "quick", arguments->quick, "runs", (int)arguments->runs, "cold_runs",
                      (int)arguments->cold_runs, "samples", samples, "reference_parts", REFERENCE_PARTS,
-                     "reference_share", REFERENCE_SHARE,
-                     "confidence", STATISTICS_CONFIDENCE, "pixels_per_degree_flip", 67, "gnuplot");
+                     "reference_share", REFERENCE_SHARE, "confidence", STATISTICS_CONFIDENCE,
+                     "pixels_per_degree_flip", 67, "gnuplot");
 }
 
 static bool measure_all(Session *session, json_t *report, Error *error)
@@ -123,16 +123,16 @@ static void spread_self_test(json_t *report)
     const f64 failed = doc_number(report, "self_test.failed");
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row)
-        if (failed >= 0)
-            doc_set(row, "health.self_test", json_string(failed > 0 ? "failed" : "passed"));
+    json_array_foreach(json_object_get(report, "rows"), i, row) if (failed >= 0)
+        doc_set(row, "health.self_test", json_string(failed > 0 ? "failed" : "passed"));
 }
 
 static bool write_all(const Session *session, json_t *report, Error *error)
 {
     const char *out = session->out;
     Arena *arena = session->arena;
-    const char *document = text_format(arena, "%s/report.json", out), *lines = text_format(arena, "%s/rows.jsonl", out);
+    const char *document = text_format(arena, "%s/report.json", out),
+               *lines = text_format(arena, "%s/rows.jsonl", out);
     const char *csv = text_format(arena, "%s/report.csv", out);
     const char *convergence = text_format(arena, "%s/convergence.csv", out);
     if (!document || !lines || !csv || !convergence)
@@ -161,9 +161,9 @@ static bool read_extras(const Arguments *arguments, json_t *report, Error *error
 
 static bool run(Session *session, Error *error)
 {
-    json_t *report = json_pack("{s:s, s:o, s:[], s:[], s:[], s:n, s:n, s:[]}", "schema", ROW_SCHEMA, "settings",
-                               settings_of(session->arguments), "rows", "features", "peers", "ulp", "self_test",
-                               "plots");
+    json_t *report =
+        json_pack("{s:s, s:o, s:[], s:[], s:[], s:n, s:n, s:[]}", "schema", ROW_SCHEMA, "settings",
+                  settings_of(session->arguments), "rows", "features", "peers", "ulp", "self_test", "plots");
     bool ok = report != NULL || no_memory(error);
     ok = ok && read_extras(session->arguments, report, error) && measure_all(session, report, error);
     if (ok)
@@ -185,7 +185,9 @@ bool report_make(const Arguments *arguments, const char *program, Arena *arena, 
     char *work = text_format(arena, "%s/clrt-report-XXXXXX", folder && *folder ? folder : "/tmp");
     session.out = text_format(arena, "%s.new-%ld", arguments->out, (long)getpid());
     session.runner = (Runner){.clrt = arguments->clrt ? arguments->clrt : find_clrt(program, arena),
-                              .device = arguments->device, .folder = work, .arena = arena};
+                              .device = arguments->device,
+                              .folder = work,
+                              .arena = arena};
     if (!work || !session.out || !session.runner.clrt)
         return no_memory(error);
     if (!check_out(arguments->out, arena, error))

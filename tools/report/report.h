@@ -4,8 +4,8 @@
 
 #include "arguments.h"
 
-// Measures, and puts the folder in its place when all is in it; until then, and where this fails, an older report
-// there stays as it is. The table goes to standard output. `program` is argv[0].
+// Measures, and puts the folder in its place when all is in it; until then, and where this fails, an older
+// report there stays as it is. The table goes to standard output. `program` is argv[0].
 bool report_make(const Arguments *arguments, const char *program, Arena *arena, Error *error);
 
 #endif

@@ -6,10 +6,10 @@
 #include "doc.h"
 
 const Stage ROW_STAGES[] = {
-    {"wall_s", ""},           {"total_s", "total"},     {"device_s", "device"}, {"parse_s", "scene"},
-    {"load_s", "meshes"},     {"bvh_s", "hierarchy"},   {"layout_s", "layout"}, {"compile_s", "compile"},
-    {"upload_s", "upload"},   {"kernel_s", "trace"},    {"download_s", "download"},
-    {"encode_s", "encode"},   {"other_s", ""},          {NULL, NULL},
+    {"wall_s", ""},         {"total_s", "total"},   {"device_s", "device"},     {"parse_s", "scene"},
+    {"load_s", "meshes"},   {"bvh_s", "hierarchy"}, {"layout_s", "layout"},     {"compile_s", "compile"},
+    {"upload_s", "upload"}, {"kernel_s", "trace"},  {"download_s", "download"}, {"encode_s", "encode"},
+    {"other_s", ""},        {NULL, NULL},
 };
 
 static json_t *null_object(const char *const *keys)
@@ -30,8 +30,9 @@ static json_t *stages_object(void)
 
 static json_t *run_object(const char *scene, const Mode *mode)
 {
-    static const char *const KEYS[] = {"scene_hash", "clrt_version", "platform", "device", "driver", "kernel_hash",
-                                       "features", "width", "height", "depth", "seed", "unavailable", NULL};
+    static const char *const KEYS[] = {"scene_hash",  "clrt_version", "platform", "device", "driver",
+                                       "kernel_hash", "features",     "width",    "height", "depth",
+                                       "seed",        "unavailable",  NULL};
     json_t *run = null_object(KEYS);
     json_object_set_new(run, "scene", doc_string(scene));
     json_object_set_new(run, "mode", doc_string(mode->name));
@@ -43,36 +44,52 @@ static json_t *run_object(const char *scene, const Mode *mode)
 
 static json_t *error_object(void)
 {
-    static const char *const R64[] = {"spp", "max_ulp", "max_abs", "p99_abs", "rmse", "different_values", "values",
-                                      "other_object_pixels", "reason", NULL};
-    static const char *const RINF[] = {"reference", "spp", "mse", "mse_low", "mse_high", "rmse", "rmse_low",
-                                       "rmse_high", "relmse", "psnr_db", "flip_mean", "ssim_mean", "bias",
-                                       "bias_low", "bias_high", "reason", NULL};
+    static const char *const R64[] = {"spp",     "max_ulp",
+                                      "max_abs", "p99_abs",
+                                      "rmse",    "different_values",
+                                      "values",  "other_object_pixels",
+                                      "reason",  NULL};
+    static const char *const RINF[] = {"reference", "spp",       "mse",       "mse_low",  "mse_high",
+                                       "rmse",      "rmse_low",  "rmse_high", "relmse",   "psnr_db",
+                                       "flip_mean", "ssim_mean", "bias",      "bias_low", "bias_high",
+                                       "reason",    NULL};
     return json_pack("{s:o, s:o, s:o}", "r64", null_object(R64), "r64_one_sample", null_object(R64), "rinf",
                      null_object(RINF));
 }
 
 json_t *row_create(const char *scene, const Mode *mode)
 {
-    static const char *const RAYS[] = {"camera", "shadow", "reflect", "refract", "total", "mrays_per_s",
-                                       "ns_per_ray", "visits_per_ray", NULL};
-    static const char *const MEMORY[] = {"device_peak_bytes", "host_peak_bytes", "largest_buffer_bytes",
-                                         "scene_bytes", "state_bytes", "film_bytes", NULL};
-    static const char *const EFFICIENCY[] = {"per_mse_wall", "per_mse_kernel", "seconds_to_rmse_0_01",
-                                             "seconds_extrapolated", "slope_wall", "slope_wall_low",
-                                             "slope_wall_high", "slope_kernel", "slope_kernel_low",
-                                             "slope_kernel_high", NULL};
-    static const char *const BUDGET[] = {"e_sampling", "e_depth", "e_min_weight", "e_arith", "e_quant", "e_total",
+    static const char *const RAYS[] = {"camera",      "shadow",     "reflect",        "refract", "total",
+                                       "mrays_per_s", "ns_per_ray", "visits_per_ray", NULL};
+    static const char *const MEMORY[] = {"device_peak_bytes",
+                                         "host_peak_bytes",
+                                         "largest_buffer_bytes",
+                                         "scene_bytes",
+                                         "state_bytes",
+                                         "film_bytes",
                                          NULL};
-    static const char *const HEALTH[] = {"nan_values", "inf_values", "negative_values", "clamped_samples", "leaks",
-                                         "image_hash", "self_test", NULL};
+    static const char *const EFFICIENCY[] = {"per_mse_wall",
+                                             "per_mse_kernel",
+                                             "seconds_to_rmse_0_01",
+                                             "seconds_extrapolated",
+                                             "slope_wall",
+                                             "slope_wall_low",
+                                             "slope_wall_high",
+                                             "slope_kernel",
+                                             "slope_kernel_low",
+                                             "slope_kernel_high",
+                                             NULL};
+    static const char *const BUDGET[] = {"e_sampling", "e_depth", "e_min_weight", "e_arith", "e_quant",
+                                         "e_total",    NULL};
+    static const char *const HEALTH[] = {"nan_values", "inf_values", "negative_values", "clamped_samples",
+                                         "leaks",      "image_hash", "self_test",       NULL};
     static const char *const FILES[] = {"picture", "map_r64", "map_rinf", NULL};
-    json_t *row = json_pack("{s:s, s:o, s:{s:i, s:i, s:o, s:o, s:{s:n, s:n}, s:n}, s:o, s:o, s:o, s:o, s:[]}", "schema", ROW_SCHEMA,
-                            "run", run_object(scene, mode), "time", "cold_runs", 0, "warm_runs", 0, "cold",
-                            stages_object(), "warm", stages_object(), "kernel_to_exact", "median", "mad",
-                            "kernel_to_exact_spp", "rays", null_object(RAYS), "memory",
-                            null_object(MEMORY), "error", error_object(), "efficiency", null_object(EFFICIENCY),
-                            "convergence");
+    json_t *row =
+        json_pack("{s:s, s:o, s:{s:i, s:i, s:o, s:o, s:{s:n, s:n}, s:n}, s:o, s:o, s:o, s:o, s:[]}", "schema",
+                  ROW_SCHEMA, "run", run_object(scene, mode), "time", "cold_runs", 0, "warm_runs", 0, "cold",
+                  stages_object(), "warm", stages_object(), "kernel_to_exact", "median", "mad",
+                  "kernel_to_exact_spp", "rays", null_object(RAYS), "memory", null_object(MEMORY), "error",
+                  error_object(), "efficiency", null_object(EFFICIENCY), "convergence");
     json_object_set_new(row, "budget", null_object(BUDGET));
     json_object_set_new(row, "health", null_object(HEALTH));
     json_object_set_new(row, "files", null_object(FILES));
@@ -100,12 +117,16 @@ static void copy(json_t *into, const char *const *keys, const json_t *stats)
 void row_take_stats(json_t *row, const json_t *stats)
 {
     static const char *const PICTURE[] = {"device", "features", "width", "height", NULL};
-    static const char *const RUN[] = {"scene_hash", "clrt_version", "platform", "device", "driver",
-                                      "kernel_hash", "depth", "seed", NULL};
+    static const char *const RUN[] = {"scene_hash",  "clrt_version", "platform", "device", "driver",
+                                      "kernel_hash", "depth",        "seed",     NULL};
     static const char *const RAYS[] = {"camera", "shadow", "reflect=mirrored", "refract=transmitted", NULL};
-    static const char *const MEMORY[] = {"device_peak_bytes=device_peak", "host_peak_bytes=host_peak",
-                                         "largest_buffer_bytes=largest_buffer", "scene_bytes=scene",
-                                         "state_bytes=state", "film_bytes=film", NULL};
+    static const char *const MEMORY[] = {"device_peak_bytes=device_peak",
+                                         "host_peak_bytes=host_peak",
+                                         "largest_buffer_bytes=largest_buffer",
+                                         "scene_bytes=scene",
+                                         "state_bytes=state",
+                                         "film_bytes=film",
+                                         NULL};
     static const char *const HEALTH[] = {"clamped_samples", "leaks", NULL};
     copy(json_object_get(row, "run"), PICTURE, stats);
     copy(json_object_get(row, "run"), RUN, json_object_get(stats, "run"));
@@ -130,8 +151,7 @@ f64 row_rays(const json_t *stats)
     const char *key;
     json_t *count;
     f64 sum = 0;
-    json_object_foreach(json_object_get(stats, "rays"), key, count)
-        sum += json_number_value(count);
+    json_object_foreach(json_object_get(stats, "rays"), key, count) sum += json_number_value(count);
     return sum;
 }
 

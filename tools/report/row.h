@@ -1,5 +1,5 @@
-// Row: what is measured of a scene in one mode on one device, schema clrt-report/1. Every key is there from the
-// beginning, null until it is measured.
+// Row: what is measured of a scene in one mode on one device, schema clrt-report/1. Every key is there from
+// the beginning, null until it is measured.
 #ifndef CLRT_REPORT_ROW_H
 #define CLRT_REPORT_ROW_H
 
@@ -18,8 +18,8 @@ void row_take_stats(json_t *row, const json_t *stats);
 // The same of the budget, which goes with the kind of file: one of 8 bits has an error that floats have not.
 void row_take_budget(json_t *row, const json_t *stats);
 
-// The stages that a run's seconds are told in, in their order; NULL ends them. Those that clrt does not tell apart
-// are null: the hierarchy is part of layout_s, upload of device_s and kernel_s, download of kernel_s.
+// The stages that a run's seconds are told in, in their order; NULL ends them. Those that clrt does not tell
+// apart are null: the hierarchy is part of layout_s, upload of device_s and kernel_s, download of kernel_s.
 typedef struct Stage {
     const char *key;   // in the report
     const char *stats; // in clrt's statistics, NULL: not told; "" : computed here

@@ -34,10 +34,12 @@ static bool fail(const Runner *runner, int status, const char *talk, Error *erro
     const ErrorCode code = status > 0 && status <= ERROR_TIME ? (ErrorCode)status
                            : status == ERROR_INTERRUPTED      ? ERROR_INTERRUPTED
                                                               : ERROR_IO;
-    return error_set(error, code, "%s ended with status %d%s%s", runner->clrt, status, *talk ? ":\n" : "", talk);
+    return error_set(error, code, "%s ended with status %d%s%s", runner->clrt, status, *talk ? ":\n" : "",
+                     talk);
 }
 
-static Command command_of(const Runner *runner, const Shot *shot, const char *stats_option, char numbers[3][32])
+static Command command_of(const Runner *runner, const Shot *shot, const char *stats_option,
+                          char numbers[3][32])
 {
     Command command = {.count = 0};
     const char *math = shot->math ? shot->math : shot->mode ? shot->mode->math : "exact";
@@ -64,11 +66,12 @@ static Command command_of(const Runner *runner, const Shot *shot, const char *st
     return command;
 }
 
-// Where the drivers that are known keep compiled kernels, in a folder that is empty; NULL when memory is exhausted.
+// Where the drivers that are known keep compiled kernels, in a folder that is empty; NULL when memory is
+// exhausted.
 static const char **empty_caches(Runner *runner, const char **folder)
 {
-    static const char *const NAMES[] = {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "CUDA_CACHE_PATH", "NEO_CACHE_DIR",
-                                        "AMD_COMGR_CACHE_DIR"};
+    static const char *const NAMES[] = {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "CUDA_CACHE_PATH",
+                                        "NEO_CACHE_DIR", "AMD_COMGR_CACHE_DIR"};
     enum { NAME_COUNT = sizeof NAMES / sizeof NAMES[0] };
     const char **environment = arena_alloc(runner->arena, NAME_COUNT + 1, sizeof *environment);
     *folder = text_format(runner->arena, "%s/cache-%u", runner->folder, runner->cold_count++);
@@ -125,14 +128,16 @@ bool runner_check(Runner *runner, const char *scene, Error *error)
 {
     const char *const argv[] = {runner->clrt, "--quiet", "--check", "--", scene, NULL};
     ChildEnd end;
-    return run_plain(runner, argv, &end, error) && (end.status == 0 || fail(runner, end.status, end.talk, error));
+    return run_plain(runner, argv, &end, error) &&
+           (end.status == 0 || fail(runner, end.status, end.talk, error));
 }
 
 json_t *runner_self_test(Runner *runner, Error *error)
 {
     const char *path = text_format(runner->arena, "%s/self_test.json", runner->folder);
     const char *option = path ? text_format(runner->arena, "--self-test=%s", path) : NULL;
-    const char *const argv[] = {runner->clrt, option, runner->device ? "--device" : NULL, runner->device, NULL};
+    const char *const argv[] = {runner->clrt, option, runner->device ? "--device" : NULL, runner->device,
+                                NULL};
     ChildEnd end;
     if (!option)
         error_set(error, ERROR_MEMORY, "no memory for a command line");

@@ -1,5 +1,5 @@
-// Runner: clrt as a child, once for each picture. It knows clrt's options and the file of its statistics, not what
-// is made of them.
+// Runner: clrt as a child, once for each picture. It knows clrt's options and the file of its statistics, not
+// what is made of them.
 #ifndef CLRT_REPORT_RUNNER_H
 #define CLRT_REPORT_RUNNER_H
 
@@ -38,8 +38,8 @@ typedef struct Shown {
     char talk[1024]; // on standard error
 } Shown;
 
-// Renders. False with ERROR_IO where clrt cannot be run or left no statistics, ERROR_MEMORY, ERROR_INTERRUPTED;
-// *shown has nothing to give up then.
+// Renders. False with ERROR_IO where clrt cannot be run or left no statistics, ERROR_MEMORY,
+// ERROR_INTERRUPTED; *shown has nothing to give up then.
 bool runner_try(Runner *runner, const Shot *shot, Shown *shown, Error *error);
 
 // The same, where a clrt that ends with a status other than 0 is a failure, with that status as its code.

@@ -6,7 +6,7 @@
 
 #include "doc.h"
 
-enum { POINTS_MAX = SAMPLE_COUNTS_MAX + 1, RATIOS_MAX = 1000 };
+enum { RATIOS_MAX = 1000 };
 
 static const f64 TARGET_RMSE = 0.01;
 
@@ -35,21 +35,27 @@ json_t *series_times(const Series *series)
     json_t *times = json_object();
     for (u32 i = 0; i < ROW_STAGE_COUNT; i++) {
         const bool told = series->count > 0 && !isnan(series->stages[i][0]);
-        json_object_set_new(times, ROW_STAGES[i].key, doc_spread(series->stages[i], told ? series->count : 0));
+        json_object_set_new(times, ROW_STAGES[i].key,
+                            doc_spread(series->stages[i], told ? series->count : 0));
     }
     return times;
+}
+
+static u32 stage_index(const char *key)
+{
+    u32 i = 0;
+    while (strcmp(ROW_STAGES[i].key, key) != 0)
+        i++;
+    return i;
 }
 
 json_t *series_ratio(const Series *series, const Series *base)
 {
     f64 ratios[RATIOS_MAX];
+    const u32 stage = stage_index("kernel_s");
     size_t count = 0;
-    for (u32 i = 0; i < ROW_STAGE_COUNT; i++) {
-        if (strcmp(ROW_STAGES[i].key, "kernel_s") != 0)
-            continue;
-        for (; count < series->count && count < base->count && count < RATIOS_MAX; count++)
-            ratios[count] = series->stages[i][count] / base->stages[i][count];
-    }
+    for (; count < series->count && count < base->count && count < RATIOS_MAX; count++)
+        ratios[count] = series->stages[stage][count] / base->stages[stage][count];
     return doc_spread(ratios, count);
 }
 
@@ -61,7 +67,8 @@ static bool refuse(const Reference *reference, f64 rmse, char *reason, size_t by
     if (!reference->mean)
         snprintf(reason, bytes, "%s", reference->reason);
     else if (!(reference->standard_error <= REFERENCE_SHARE * rmse))
-        snprintf(reason, bytes, "the reference's standard error, %.3g, is more than a quarter of this error, %.3g",
+        snprintf(reason, bytes,
+                 "the reference's standard error, %.3g, is more than a quarter of this error, %.3g",
                  reference->standard_error, rmse);
     else
         return false;
@@ -90,12 +97,13 @@ static void set_errors(json_t *point, const Series *series, const Reference *ref
 
 json_t *series_point(const Series *series, const Reference *reference)
 {
-    static const char *const NULLS[] = {"mse", "mse_low", "mse_high", "rmse", "rmse_low", "rmse_high", "relmse",
-                                        "psnr_db", "flip_mean", "ssim_mean", "bias", "bias_low", "bias_high",
-                                        "per_mse_wall", "per_mse_kernel", "reason"};
+    static const char *const NULLS[] = {"mse",       "mse_low",      "mse_high",       "rmse",
+                                        "rmse_low",  "rmse_high",    "relmse",         "psnr_db",
+                                        "flip_mean", "ssim_mean",    "bias",           "bias_low",
+                                        "bias_high", "per_mse_wall", "per_mse_kernel", "reason"};
     json_t *times = series_times(series);
-    json_t *point = json_pack("{s:i, s:i, s:O, s:O, s:f}", "spp", (int)series->samples, "runs", (int)series->count,
-                              "wall_s", json_object_get(times, "wall_s"), "kernel_s",
+    json_t *point = json_pack("{s:i, s:i, s:O, s:O, s:f}", "spp", (int)series->samples, "runs",
+                              (int)series->count, "wall_s", json_object_get(times, "wall_s"), "kernel_s",
                               json_object_get(times, "kernel_s"), "rays", series->rays);
     json_decref(times);
     for (size_t i = 0; i < sizeof NULLS / sizeof NULLS[0]; i++)
@@ -121,25 +129,34 @@ void series_set_rinf(json_t *row, const json_t *point, json_t *reference)
 
 // ---- efficiency -----------------------------------------------------------------------------
 
-// log RMSE against the log of the seconds at path, over the points that have both.
-static bool fit(const json_t *convergence, const char *path, Line *line, f64 *slowest)
+// log RMSE against the log of the seconds of a stage, over all runs. False where there is no line.
+static bool fit(const json_t *convergence, const Series *series, u32 count, const char *key, Arena *arena,
+                Line *line, f64 *slowest)
 {
-    f64 seconds[POINTS_MAX], errors[POINTS_MAX];
-    size_t count = 0, i;
-    json_t *point;
+    size_t runs = 0;
+    for (u32 k = 0; k < count; k++)
+        runs += series[k].count;
+    f64 *seconds = arena_alloc(arena, runs, sizeof *seconds),
+        *errors = arena_alloc(arena, runs, sizeof *errors);
+    if (!seconds || !errors)
+        return false;
+    const u32 stage = stage_index(key);
+    runs = 0;
     *slowest = 0;
-    json_array_foreach(convergence, i, point) {
-        const f64 s = doc_number(point, path), e = doc_number(point, "rmse");
-        if (s > 0 && e > 0 && count < POINTS_MAX) {
-            seconds[count] = s;
-            errors[count++] = e;
-            *slowest = fmax(*slowest, s);
+    for (u32 k = 0; k < count; k++) {
+        if (!(doc_number(json_array_get(convergence, k), "rmse") > 0))
+            continue;
+        for (u32 i = 0; i < series[k].count; i++) {
+            seconds[runs] = series[k].stages[stage][i];
+            errors[runs] = sqrt(series[k].mse[i]);
+            *slowest = fmax(*slowest, seconds[runs]);
+            runs += seconds[runs] > 0 && errors[runs] > 0;
         }
     }
-    return statistics_log_line(seconds, errors, count, line);
+    return statistics_log_line(seconds, errors, runs, line);
 }
 
-void series_set_efficiency(json_t *row, const json_t *point)
+void series_set_efficiency(json_t *row, const json_t *point, const Series *series, u32 count, Arena *arena)
 {
     json_t *efficiency = json_object_get(row, "efficiency");
     const json_t *convergence = json_object_get(row, "convergence");
@@ -147,9 +164,9 @@ void series_set_efficiency(json_t *row, const json_t *point)
     f64 slowest;
     json_object_set(efficiency, "per_mse_wall", json_object_get(point, "per_mse_wall"));
     json_object_set(efficiency, "per_mse_kernel", json_object_get(point, "per_mse_kernel"));
-    if (fit(convergence, "kernel_s.median", &line, &slowest))
+    if (fit(convergence, series, count, "kernel_s", arena, &line, &slowest))
         doc_set_estimate(efficiency, "slope_kernel", line.slope);
-    if (!fit(convergence, "wall_s.median", &line, &slowest))
+    if (!fit(convergence, series, count, "wall_s", arena, &line, &slowest))
         return;
     doc_set_estimate(efficiency, "slope_wall", line.slope);
     const f64 seconds = exp((log(TARGET_RMSE) - line.intercept) / line.slope.value);

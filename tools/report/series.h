@@ -30,13 +30,16 @@ json_t *series_times(const Series *series);
 // Kernel seconds of `series` over those of `base`, run by run, which took turns: median and MAD.
 json_t *series_ratio(const Series *series, const Series *base);
 
-// A point of the convergence; without a reference that is good enough its errors are null and reason says why.
+// A point of the convergence; without a reference that is good enough its errors are null and reason says
+// why.
 json_t *series_point(const Series *series, const Reference *reference);
 
-// error.rinf of a row from a point of its convergence; `reference` as of reference_to_json, which is borrowed.
+// error.rinf of a row from a point of its convergence; `reference` as of reference_to_json, which is
+// borrowed.
 void series_set_rinf(json_t *row, const json_t *point, json_t *reference);
 
-// efficiency of a row from its convergence and the point of its own samples.
-void series_set_efficiency(json_t *row, const json_t *point);
+// efficiency of a row: the point of its own samples, and lines through all runs of `count` series, of which
+// those count whose point has an error.
+void series_set_efficiency(json_t *row, const json_t *point, const Series *series, u32 count, Arena *arena);
 
 #endif

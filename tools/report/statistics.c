@@ -135,7 +135,8 @@ Estimate statistics_difference(Mean a, Mean b)
     const f64 va = a.standard_error * a.standard_error, vb = b.standard_error * b.standard_error;
     const f64 variance = va + vb;
     // Welch and Satterthwaite. What has no spread adds nothing, whatever its count.
-    const f64 spread = (va > 0 ? va * va / ((f64)a.count - 1) : 0) + (vb > 0 ? vb * vb / ((f64)b.count - 1) : 0);
+    const f64 spread =
+        (va > 0 ? va * va / ((f64)a.count - 1) : 0) + (vb > 0 ? vb * vb / ((f64)b.count - 1) : 0);
     return around(a.value - b.value, sqrt(variance), variance * variance / spread);
 }
 

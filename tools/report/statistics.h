@@ -15,7 +15,8 @@ f64 statistics_mad(const f64 *values, size_t count);
 
 typedef struct Mean {
     f64 value;          // NaN of no values
-    f64 standard_error; // of the value: the deviation of the values over the root of their count; NaN below two
+    f64 standard_error; // of the value: the deviation of the values over the root of their count; NaN below
+                        // two
     size_t count;
 } Mean;
 
@@ -31,8 +32,8 @@ Estimate statistics_batches(const f64 *values, size_t count);
 // a - b of two independent means with its interval by Welch's t. A mean without spread counts as exact.
 Estimate statistics_difference(Mean a, Mean b);
 
-// The t that a variable of Student's distribution with `freedom` > 0 degrees stays within, on both sides, with
-// the probability `confidence`, in (0, 1).
+// The t that a variable of Student's distribution with `freedom` > 0 degrees stays within, on both sides,
+// with the probability `confidence`, in (0, 1).
 f64 statistics_student(f64 confidence, f64 freedom);
 
 typedef struct Line {

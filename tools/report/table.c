@@ -33,8 +33,8 @@ static const f64 MIB = 1024.0 * 1024.0;
 
 static void print_row(const json_t *row, FILE *stream)
 {
-    fprintf(stream, "%-*.*s %-*.*s", NAME_WIDTH, NAME_WIDTH, doc_text(row, "run.scene"), NAME_WIDTH, NAME_WIDTH,
-            doc_text(row, "run.mode"));
+    fprintf(stream, "%-*.*s %-*.*s", NAME_WIDTH, NAME_WIDTH, doc_text(row, "run.scene"), NAME_WIDTH,
+            NAME_WIDTH, doc_text(row, "run.mode"));
     const char *unavailable = doc_text(row, "run.unavailable");
     if (unavailable) {
         fprintf(stream, " %.110s\n", unavailable);
@@ -56,15 +56,17 @@ static void print_features(const json_t *features, FILE *stream)
 {
     size_t i;
     json_t *one;
-    fprintf(stream, "\n%-16s %8s %10s %7s   declared but unused: %10s %7s %s\n", "feature", "ns/ray", "added ns",
-            "+-", "added ns", "+-", "same program");
-    json_array_foreach(features, i, one) {
+    fprintf(stream, "\n%-16s %8s %10s %7s   declared but unused: %10s %7s %s\n", "feature", "ns/ray",
+            "added ns", "+-", "added ns", "+-", "same program");
+    json_array_foreach(features, i, one)
+    {
         const char *same = json_is_boolean(doc_at(one, "unused.same_kernels"))
                                ? json_is_true(doc_at(one, "unused.same_kernels")) ? "yes" : "NO"
                                : "-";
         fprintf(stream, "%-16s %8.2f %10.2f %7.2f   %21s %10.2f %7.2f %s\n", doc_text(one, "feature"),
                 doc_number(one, "used.ns_per_ray.median"), doc_number(one, "used.added_ns_per_ray.median"),
-                doc_number(one, "used.added_ns_per_ray.mad"), "", doc_number(one, "unused.added_ns_per_ray.median"),
+                doc_number(one, "used.added_ns_per_ray.mad"), "",
+                doc_number(one, "unused.added_ns_per_ray.median"),
                 doc_number(one, "unused.added_ns_per_ray.mad"), same);
     }
 }
@@ -80,8 +82,7 @@ void table_print(const json_t *report, FILE *stream)
             fprintf(stream, " %*s", COLUMNS[i].width, COLUMNS[i].head);
         fputc('\n', stream);
     }
-    json_array_foreach(rows, i, row)
-        print_row(row, stream);
+    json_array_foreach(rows, i, row) print_row(row, stream);
     if (json_array_size(features) > 0)
         print_features(features, stream);
 }

@@ -12,15 +12,15 @@ static bool is_histogram(const json_t *histogram)
 {
     size_t i;
     json_t *bin;
-    json_array_foreach(histogram, i, bin)
-        if (!is_number_or_null(json_object_get(bin, "ulp")) || !json_is_number(json_object_get(bin, "count")))
-            return false;
+    json_array_foreach(histogram, i, bin) if (!is_number_or_null(json_object_get(bin, "ulp")) ||
+                                              !json_is_number(json_object_get(bin, "count"))) return false;
     return json_is_array(histogram);
 }
 
 static bool is_shape(const json_t *shape)
 {
-    return json_is_string(json_object_get(shape, "name")) && is_number_or_null(json_object_get(shape, "rays")) &&
+    return json_is_string(json_object_get(shape, "name")) &&
+           is_number_or_null(json_object_get(shape, "rays")) &&
            is_number_or_null(json_object_get(shape, "max_ulp")) &&
            is_number_or_null(json_object_get(shape, "p99_ulp")) &&
            is_histogram(json_object_get(shape, "histogram"));
@@ -35,9 +35,8 @@ json_t *ulp_read(const char *path, Error *error)
     bool ok = json_is_array(shapes) || error_set(error, ERROR_IO, "%s: has no array \"shapes\"", path);
     size_t i;
     json_t *shape;
-    json_array_foreach(shapes, i, shape)
-        if (ok && !is_shape(shape))
-            ok = error_set(error, ERROR_IO, "%s: shape %zu is not as clrt-report reads it", path, i + 1);
+    json_array_foreach(shapes, i, shape) if (ok && !is_shape(shape)) ok =
+        error_set(error, ERROR_IO, "%s: shape %zu is not as clrt-report reads it", path, i + 1);
     if (ok)
         return document;
     json_decref(document);

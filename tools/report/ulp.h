@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 
-// Reads {"shapes": [{"name":, "rays":, "max_ulp":, "p99_ulp":, "histogram": [{"ulp":, "count":}, ...]}, ...]}, as
-// clrt-ulp --json writes it; further members are kept. "ulp" is the upper end of a bin, null: no end. A missing
-// figure is null. NULL with ERROR_IO, which says what is wrong.
+// Reads {"shapes": [{"name":, "rays":, "max_ulp":, "p99_ulp":, "histogram": [{"ulp":, "count":}, ...]},
+// ...]}, as clrt-ulp --json writes it; further members are kept. "ulp" is the upper end of a bin, null: no
+// end. A missing figure is null. NULL with ERROR_IO, which says what is wrong.
 json_t *ulp_read(const char *path, Error *error);
 
 #endif
