@@ -1,5 +1,5 @@
-// Hash: XXH64 of a stream of bytes (Collet, "xxHash fast digest algorithm", version 0.1.1, seed 0): tells apart
-// what differs by accident, not what somebody made alike. `xxhsum -H64` gives the same.
+// Hash: XXH64 of a stream of bytes (Collet, "xxHash fast digest algorithm", version 0.1.1, seed 0): tells
+// apart what differs by accident, not what somebody made alike. `xxhsum -H64` gives the same.
 #ifndef CLRT_BASE_HASH_H
 #define CLRT_BASE_HASH_H
 

@@ -49,8 +49,9 @@ static bool *used_materials(const Scene *scene, const Layout *layout)
     if (!used)
         return NULL;
     for (u32 i = 0; i < layout->primitive_count + layout->mesh_run_count; i++) {
-        const u32 named = i < layout->primitive_count ? layout->infos[i].material
-                                                      : layout->mesh_runs[i - layout->primitive_count].material;
+        const bool of_mesh = i >= layout->primitive_count;
+        const u32 named = of_mesh ? layout->mesh_runs[i - layout->primitive_count].material
+                                  : layout->infos[i].material;
         const u32 index = named & ~MATERIAL_INHERITED;
         if (named != NO_INDEX && index < scene->material_count)
             used[index] = true;
@@ -67,17 +68,17 @@ static f64 greatest_texel(const Texture *texture, u32 c)
     return bitmap && (bitmap->type == BITMAP_U8 || bitmap->type == BITMAP_U16) ? 1 : INFINITY;
 }
 
-// A texture stands for the color, or scales it.
-static f64 greatest_input(const Scene *scene, const ColorInput *input, u32 c)
-{
-    const f64 color = channel(input->color, c);
-    return input->texture < 0 ? color : greatest_texel(&scene->textures[input->texture], c) * fmax(color, 1);
-}
-
 // Product in which 0 wins over infinity: what is not there adds nothing.
 static f64 times(f64 a, f64 b)
 {
     return a == 0 || b == 0 ? 0 : a * b;
+}
+
+// The texture scales the color.
+static f64 greatest_input(const Scene *scene, const ColorInput *input, u32 c)
+{
+    const f64 color = channel(input->color, c);
+    return input->texture < 0 ? color : times(greatest_texel(&scene->textures[input->texture], c), color);
 }
 
 // Gain of each light where it is greatest; NULL without memory.
@@ -181,8 +182,8 @@ static f64 depth_bound(const Channel *bound, u32 max_depth)
     return bound->weight < 1 ? pow(bound->weight, max_depth + 1.0) * bound->limit : INFINITY;
 }
 
-// Each ray that is cut off had a weight below min_weight; on one way there is one, in a tree of depth D at most
-// 2^D; and all of them together weigh no more than what was passed on.
+// Each ray that is cut off had a weight below min_weight; on one way there is one, in a tree of depth D at
+// most 2^D; and all of them together weigh no more than what was passed on.
 static f64 weight_bound(const Channel *bound, const RenderSettings *render, bool branching)
 {
     const f64 depth = render->max_depth;
@@ -208,7 +209,7 @@ SceneBounds scene_bounds(const Scene *scene, const Layout *layout)
         bounds.depth = fmax(bounds.depth, depth_bound(&bound, render->max_depth));
         bounds.min_weight = fmax(bounds.min_weight, weight_bound(&bound, render, branching));
         if (!bounds.unbounded && !isfinite(bound.radiance))
-            bounds.unbounded = "a light at a surface, or a material that makes more of light";
+            bounds.unbounded = "a light at a surface, or a material without a known bound";
     }
     if (!cut)
         bounds.min_weight = 0;

@@ -29,8 +29,8 @@ static const char *estimator_of(const Scene *scene)
     return "mean of samples";
 }
 
-// Parts add up at worst. Sampling is not among them where pixel centres are all that was asked for; where it is
-// but nothing is known of it, so is nothing of the total.
+// Parts add up at worst. Sampling is not among them where pixel centres are all that was asked for; where it
+// is but nothing is known of it, so is nothing of the total.
 static void add_up(ErrorBudget *budget, const Scene *scene)
 {
     budget->covers_sampling = budget->sampling.assumption != SAMPLING_NONE;

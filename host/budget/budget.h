@@ -1,5 +1,5 @@
-// ErrorBudget: what the error of an image is made of, each part by itself, with what it holds for. It knows the
-// scene, its bounds and the pooled figures of the image; not how that was rendered.
+// ErrorBudget: what the error of an image is made of, each part by itself, with what it holds for. It knows
+// the scene, its bounds and the pooled figures of the image; not how that was rendered.
 #ifndef CLRT_BUDGET_BUDGET_H
 #define CLRT_BUDGET_BUDGET_H
 

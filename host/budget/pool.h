@@ -11,8 +11,8 @@ typedef struct BudgetPool {
     f64 m2, m2_squared, m2_max;  // of RenderRows.m2: sum, sum of squares, greatest; 0 without samples
 } BudgetPool;
 
-// Adds a row of `width` pixels, 3 linear numbers each, and their m2 (RenderRows.m2), or NULL. Rows in the same
-// order give the same bits however many come at once. A pool of zeros is empty.
+// Adds a row of `width` pixels, 3 linear numbers each, and their m2 (RenderRows.m2), or NULL. Rows in the
+// same order give the same bits however many come at once. A pool of zeros is empty.
 void budget_pool_add_row(BudgetPool *pool, const f32 *rgb, const f32 *m2, u32 width);
 
 #endif

@@ -63,17 +63,18 @@ static f64 largest_bound(const Figures *f, const Range *range, f64 alpha)
     return fmin(mean_bound(of_channel, range->side, f->samples, log(12 * f->pixels / alpha)), range->side);
 }
 
-// The square error of an image, summed over channels, mean over pixels. Its expectation is m = variance / n, its
-// variance in a pixel at most m (range^2 / n^2 + 2 m), the fourth moment of a mean; so says Bernstein. The
-// distance of the image from the truth is also a convex function of the samples that none of them can change
-// by more than range / n: its fluctuation has no share of the number of pixels (Boucheron, Lugosi and Massart,
-// Concentration Inequalities, 2013, Theorems 6.2 and 6.10).
+// The square error of an image, summed over channels, mean over pixels. Its expectation is m = variance / n,
+// its variance in a pixel at most m (range^2 / n^2 + 2 m), the fourth moment of a mean; so says Bernstein.
+// The distance of the image from the truth is also a convex function of the samples that none of them can
+// change by more than range / n: its fluctuation has no share of the number of pixels (Boucheron, Lugosi and
+// Massart, Concentration Inequalities, 2013, Theorems 6.2 and 6.10).
 static f64 square_error_bound(const Figures *f, const Range *range, f64 deviation, f64 log_odds)
 {
     const f64 n = f->samples, most = range->diagonal * range->diagonal;
     const f64 expected = deviation * deviation / n;
     const f64 spread = expected * most * (1 / (n * n) + 1 / (2 * n));
-    const f64 bernstein = expected + sqrt(2 * spread * log_odds / f->pixels) + most * log_odds / (3 * f->pixels);
+    const f64 odds = log_odds / f->pixels;
+    const f64 bernstein = expected + sqrt(2 * spread * odds) + most * odds / 3;
     const f64 swing = range->diagonal * sqrt(2 * log_odds / n) * fmin(1, sqrt(f->pixels) / 2);
     const f64 distance = sqrt(expected) + swing / sqrt(f->pixels);
     return fmin(fmin(bernstein, distance * distance), most);

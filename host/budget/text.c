@@ -27,9 +27,9 @@ static void print_sampling(const ErrorBudget *budget, const char *indent, FILE *
         fprintf(stream, "%ssampling      none: %s\n", indent, budget->estimator);
         return;
     }
-    fprintf(stream, "%ssampling      rmse <= %.3g, largest <= %.3g, mean %.6g in [%.6g, %.6g], each at %g %%\n",
-            indent, sampling->rmse, sampling->largest, sampling->mean, sampling->mean_low, sampling->mean_high,
-            100 * budget->confidence);
+    fprintf(stream, "%ssampling      rmse <= %.3g, largest <= %.3g, ", indent, sampling->rmse, sampling->largest);
+    fprintf(stream, "mean %.6g in [%.6g, %.6g], each at %g %%\n", sampling->mean, sampling->mean_low,
+            sampling->mean_high, 100 * budget->confidence);
     fprintf(stream, "%s              standard error %.3g; %s; ", indent, sampling->standard_error,
             budget->estimator);
     if (sampling->assumption == SAMPLING_BOUNDED)

@@ -51,8 +51,8 @@ static void add_options(IdentityTexts *texts, const Identity *identity)
 {
     const Scene *scene = identity->scene;
     start_text(texts, "clrt:options");
-    write_text(texts, "--size %ux%u --samples %u --seed %u --depth %u", scene->image.width, scene->image.height,
-               scene->image.samples, scene->image.seed, scene->render.max_depth);
+    write_text(texts, "--size %ux%u --samples %u --seed %u --depth %u", scene->image.width,
+               scene->image.height, scene->image.samples, scene->image.seed, scene->render.max_depth);
     if (identity->cropped)
         write_text(texts, " --crop %u,%u,%u,%u", identity->left, identity->top, identity->width,
                    identity->height);

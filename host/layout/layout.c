@@ -68,7 +68,7 @@ static FeatureSet material_features(const Scene *scene, const Material *material
         set |= feature_bit(FEATURE_TRANSMIT);
     if (deep && transmits && mirrors)
         set |= feature_bit(FEATURE_BRANCHING);
-    if (deep && !pbr && material->fresnel && (mirrors || transmits))
+    if (deep && (pbr ? transmits : material->fresnel && (mirrors || transmits)))
         set |= feature_bit(FEATURE_FRESNEL);
     return set;
 }

@@ -49,8 +49,7 @@ static void put(Layout *layout, u32 *count, LightRecord record, u32 samples, u32
     record.intensity.y = (f32)((f64)record.intensity.y / samples);
     record.intensity.z = (f32)((f64)record.intensity.z / samples);
     record.samples = samples;
-    record.sequence = *sequence;
-    *sequence += LIGHT_PAIRS;
+    record.sequence = (*sequence)++;
     for (u32 k = 0; k < samples; k++) {
         record.sample = k;
         layout->lights[(*count)++] = record;

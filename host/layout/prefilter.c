@@ -19,7 +19,7 @@ u64 prefilter_plan(EnvironmentRecord *record)
     u32 count = 0;
     for (u32 k = 0; k < PREFILTER_MAPS; k++) {
         record->maps[k] = (PrefilterMap){ count, WIDTHS[k] };
-        count += 3 * WIDTHS[k] * WIDTHS[k] / 2;
+        count += 3 * WIDTHS[k] * (WIDTHS[k] / 2 + 1);
     }
     record->table = count;
     return (u64)count + 3 * PREFILTER_TABLE * PREFILTER_TABLE;
@@ -163,21 +163,23 @@ static f64 fifth_power(f64 x)
 static void reflectance(f64 cosine, f64 roughness, f32 out[3])
 {
     enum { STEPS = 24 };
+    // Points of u crowd at its end, where the tail of the lobe is.
     const f64 a = roughness * roughness, a2 = a * a, sine = sqrt(1 - cosine * cosine);
     f64 factor = 0, summand = 0, diffuse = 0;
     for (int i = 0; i < STEPS * STEPS; i++) {
-        const f64 u = (i / STEPS + 0.5) / STEPS, v = (i % STEPS + 0.5) / STEPS;
+        const f64 s = (i / STEPS + 0.5) / STEPS, v = (i % STEPS + 0.5) / STEPS;
+        const f64 u = 1 - (1 - s) * (1 - s) * (1 - s), share = 3 * (1 - s) * (1 - s);
         const Direction h = visible_normal(a, sine, cosine, u, v);
         const f64 vh = sine * h.x + cosine * h.z, nl = 2 * vh * h.z - cosine;
         if (nl > 0 && vh > 0) {
             const f64 vis = 0.5 / (nl * sqrt(a2 + (1 - a2) * cosine * cosine) +
                                    cosine * sqrt(a2 + (1 - a2) * nl * nl));
-            const f64 weight = 4 * vis * nl * cosine / masking(a2, cosine), rest = fifth_power(1 - vh);
+            const f64 weight = share * 4 * vis * nl * cosine / masking(a2, cosine), rest = fifth_power(1 - vh);
             factor += weight * (1 - rest);
             summand += weight * rest;
         }
-        // Light at the cosine sqrt(1 - u): V.H is half the length of V + L.
-        const f64 lz = sqrt(1 - u), lx = sqrt(u) * cos(2 * PI * v);
+        // Light at the cosine sqrt(1 - s): V.H is half the length of V + L.
+        const f64 lz = sqrt(1 - s), lx = sqrt(s) * cos(2 * PI * v);
         diffuse += 1 - fifth_power(1 - sqrt(fmax((1 + sine * lx + cosine * lz) / 2, 0)));
     }
     out[0] = (f32)(factor / (STEPS * STEPS));
@@ -197,8 +199,8 @@ bool prefilter_run(const EnvironmentRecord *record, const f32 *texels, f32 *numb
         const u32 height = map->width / 2;
         const f64 a = k < PREFILTER_LOBES ? ldexp(1, (int)k + 1 - PREFILTER_LOBES) : 0;
 #pragma omp parallel for
-        for (u32 y = 0; y < height; y++)
-            blur_row(base, a, PI * (y + 0.5) / height, BASE_WIDTH / map->width,
+        for (u32 y = 0; y <= height; y++)
+            blur_row(base, a, PI * y / height, BASE_WIDTH / map->width,
                      numbers + map->offset + 3 * map->width * y);
     }
     const f64 least = 0.02; // roughness and, as the masking has it, cosine of grazing rays

@@ -25,8 +25,8 @@
 typedef union { int8 v; int s[8]; } Int8;
 typedef union { float8 v; float s[8]; } Float8;
 
-// Eight reals. Where a box is entered is kept as a float: it only tells which comes first, and BOX_SLACK has room
-// for its rounding.
+// Eight reals. Where a box is entered is kept as a float: it only tells which comes first, and BOX_SLACK has
+// room for its rounding.
 #if MATH_DOUBLE
 typedef double8 real8;
 #define REAL8_FROM_FLOAT8(v) convert_double8(v)

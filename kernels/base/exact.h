@@ -6,7 +6,8 @@
 #include "base/lanes.h"
 
 #define VF_SMALLEST_NORMAL REAL(0x1p-126f, 0x1p-1022)
-// Of floats. Added to |x| < 2^22 and taken away again it rounds x to an integer, which the low bits of the sum hold.
+// Of floats. Added to |x| < 2^22 and taken away again it rounds x to an integer, which the low bits of the
+// sum hold.
 #define VF_ROUND_MAGIC 0x1.8p+23f
 
 // The number after x, away from zero, where `outward`; else the one before. x: normal or infinite, not 0.

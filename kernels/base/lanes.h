@@ -20,8 +20,8 @@
 // there, and one copy of the code keeps the time of compiling down (a third of it for the reference scene).
 #define OUTLINE static __attribute__((noinline))
 
-// Numbers of the scene and of the film are floats in memory (f32), whatever a real is. REAL chooses between the
-// two roundings of a constant.
+// Numbers of the scene and of the film are floats in memory (f32), whatever a real is. REAL chooses between
+// the two roundings of a constant.
 #if MATH_DOUBLE
 #if LANES != 1
 #error "doubles are for LANES 1"

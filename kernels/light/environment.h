@@ -37,11 +37,11 @@ static inline v3 v3_lerp(v3 a, v3 b, vf t) { return v3_fma(v3_sub(b, a), t, a); 
 static inline vf direction_turn(v3 dir) { return vf_atan2(dir.x, -dir.z) / TWO_PI; }
 static inline vf direction_fall(v3 dir) { return vf_atan2(sqrt(fma(dir.x, dir.x, dir.z * dir.z)), dir.y) / PI; }
 
-// width, height: of the map, in every lane.
-static inline MapPlace map_place(vf u, vf v, vf width, vf height)
+// u in turns, y in rows from the centre of the first; width, height: of the map, in every lane.
+static inline MapPlace map_place(vf u, vf y, vf width, vf height)
 {
     MapPlace place;
-    const vf x = fma(u - floor(u), width, (vf)(-0.5f)), y = fma(v, height, (vf)(-0.5f));
+    const vf x = fma(u - floor(u), width, (vf)(-0.5f));
     const vf left = floor(x), above = vf_min(vf_max(floor(y), (vf)(-1.0f)), height - 1.0f);
     place.right = x - left;
     place.below = vf_clamp(y - above, 0.0f, 1.0f);
@@ -76,8 +76,8 @@ static inline v3 cell_radiance(const MapCell *cell, vf right, vf below)
 
 static inline MapPlace environment_place(global const EnvironmentRecord *record, v3 dir)
 {
-    return map_place(direction_turn(dir) + record->turn, direction_fall(dir), (vf)((real)record->width),
-                     (vf)((real)record->height));
+    const vf width = (vf)((real)record->width), height = (vf)((real)record->height);
+    return map_place(direction_turn(dir) + record->turn, fma(direction_fall(dir), height, (vf)(-0.5f)), width, height);
 }
 
 static inline MapCell environment_cell(const Environment *environment, const MapPlace *place)
@@ -212,8 +212,9 @@ static inline v3 prefiltered_map(const Environment *environment, vi map, vf turn
 {
     global const int *maps = (global const int *)environment->record->maps;
     const vi offset = vi_gather(maps, 2 * map), width = vi_gather(maps, 2 * map + 1);
-    const MapPlace place = map_place(turn, fall, VF_FROM_VI(width), VF_FROM_VI(width) * 0.5f);
-    const MapCell cell = map_cell(environment->levels, offset, &place, width, width >> 1);
+    const vf wide = VF_FROM_VI(width), steps = wide * 0.5f;
+    const MapPlace place = map_place(turn, fall * steps, wide, steps + 1.0f);
+    const MapCell cell = map_cell(environment->levels, offset, &place, width, (width >> 1) + 1);
     return cell_radiance(&cell, place.right, place.below);
 }
 

@@ -9,7 +9,7 @@
 
 #include "shared/types.h"
 
-// Prefiltered maps: those of lobes whose width (roughness squared) is 2^(k + 1 - PREFILTER_LOBES), and one of
+// Prefiltered maps, whose first and last rows are at the poles: those of lobes whose width (roughness squared) is 2^(k + 1 - PREFILTER_LOBES), and one of
 // irradiance over pi.
 #define PREFILTER_LOBES 7
 #define PREFILTER_MAPS (PREFILTER_LOBES + 1)
@@ -19,7 +19,7 @@
 
 typedef struct PrefilterMap {
     u32 offset; // in numbers, into the levels
-    u32 width;  // twice the height
+    u32 width;  // twice the number of rows without the last
 } PrefilterMap;
 LAYOUT_SIZE(PrefilterMap, 8);
 

@@ -35,7 +35,4 @@ LAYOUT_OFFSET(LightRecord, attenuation, 80);
 LAYOUT_OFFSET(LightRecord, versine_outer, 96);
 LAYOUT_OFFSET(LightRecord, size, 112);
 
-// A light takes this many pairs of random numbers, numbers `sequence` and those that follow.
-#define LIGHT_PAIRS 2
-
 #endif

@@ -18,9 +18,9 @@ static inline uint pixel_x(uint pixel)
 }
 static inline uint pixel_y(uint pixel) { return pixel_x(pixel >> 1); }
 
-// Adds value to the unevaluated sum high + low of each lane without losing what the additions round away: 2e7 samples of 0.1
-// still average to 0.1. Knuth's two-sum, and Dekker's to keep low below half an ulp of high; left to itself low
-// grows until it loses as much as high would.
+// Adds value to the unevaluated sum high + low of each lane without losing what the additions round away: 2e7
+// samples of 0.1 still average to 0.1. Knuth's two-sum, and Dekker's to keep low below half an ulp of high;
+// left to itself low grows until it loses as much as high would.
 static inline void sum_add(vf *high, vf *low, vf value)
 {
     const vf sum = *high + value;
@@ -67,11 +67,11 @@ static inline f32 film_rest(real high, real low)
 }
 
 // Takes over samples begin .. end - 1 of the tile's pixels, which its slots have finished, into the film (3
-// numbers a pixel, rows of the crop's width): sums, and means after the last sample. film_m2 (1 number a pixel)
-// becomes the sum over samples and channels of the squares of what each sample differs from the mean: that of
-// the samples before it, weighted as Youngs and Cramer do ("Some Results Relevant to Choice of Sum and
-// Sum-of-Product Algorithms", 1971), which loses nothing where the mean is large, and first within a round, so
-// that a million small terms do not vanish beside their sum.
+// numbers a pixel, rows of the crop's width): sums, and means after the last sample. film_m2 (1 number a
+// pixel) becomes the sum over samples and channels of the squares of what each sample differs from the mean:
+// that of the samples before it, weighted as Youngs and Cramer do ("Some Results Relevant to Choice of Sum
+// and Sum-of-Product Algorithms", 1971), which loses nothing where the mean is large, and first within a
+// round, so that a million small terms do not vanish beside their sum.
 OUTLINE void film_add(const State *s, constant RenderParams *params, global f32 *film, global f32 *film_low,
                       global float *film_m2, const Tile *tile, uint begin, uint end)
 {

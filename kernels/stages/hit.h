@@ -10,6 +10,9 @@
 #if HAS_MESH
 #include "shapes/mesh.h"
 #endif
+#if HAS_NORMAL_MAP
+#include "shapes/tangents.h"
+#endif
 #include "texture/texture.h"
 #if HAS_PBR
 #include "material/pbr.h"

@@ -35,16 +35,16 @@ static inline HitRandom hit_random(const State *s, const Slots *slots)
     return random;
 }
 
-// The bits, and the point, of the light's record; pair below LIGHT_PAIRS. All samples of a pixel, and of the light at one hit,
+// The bits, and the point, of the light's record. All samples of a pixel, and of the light at one hit,
 // are one sequence: they are spread over the light together.
-static inline SampleBits hit_random_bits(const HitRandom *random, global const LightRecord *light, uint pair)
+static inline SampleBits hit_random_bits(const HitRandom *random, global const LightRecord *light)
 {
-    return sample_2d_bits(random->path, random->sample * light->samples + light->sample, light->sequence + pair);
+    return sample_2d_bits(random->path, random->sample * light->samples + light->sample, light->sequence);
 }
 
-static inline SamplePoint hit_random_point(const HitRandom *random, global const LightRecord *light, uint pair)
+static inline SamplePoint hit_random_point(const HitRandom *random, global const LightRecord *light)
 {
-    return sample_point(hit_random_bits(random, light, pair));
+    return sample_point(hit_random_bits(random, light));
 }
 #endif
 

@@ -51,8 +51,8 @@ OUTLINE v3 hit_prefiltered(const Hit *hit, const Shading *shading)
 {
     const PbrLanes *m = &hit->pbr;
     const Environment *environment = &shading->environment;
-    const vf cosine = vf_max(-v3_dot(hit->ns, hit->dir), (vf)(0.0f));
-    const v3 mirrored = v3_normalize(reflect_about(hit->dir, hit->ns)), f0 = pbr_f0(m);
+    const vf along = v3_dot(hit->ns, hit->dir), cosine = vf_max(-along, (vf)(0.0f));
+    const v3 mirrored = v3_normalize(v3_fma(hit->ns, -2.0f * along, hit->dir)), f0 = pbr_f0(m);
     const v3 reflectance = prefiltered_reflectance(environment, cosine, m->roughness);
     const vf lobe = m->roughness >= (vf)(PBR_MIRROR) ? 1.0f - pbr_through(m) : (vf)(0.0f);
     const vf body = (1.0f - m->metallic) * (1.0f - m->transmit) * reflectance.z;
@@ -151,7 +151,7 @@ typedef struct {
 static inline LightRay occlusion_ray(const Hit *hit, v3 ambient, global const LightRecord *light)
 {
     LightRay ray;
-    const SamplePoint u = hit_random_point(&hit->random, light, 0);
+    const SamplePoint u = hit_random_point(&hit->random, light);
     ray.dir = cosine_direction(hit->ns, u.x, u.y);
     ray.length = (vf)(light->size);
     const v3 share = v3_scale(ambient, (vf)(light->intensity.x));
@@ -166,12 +166,17 @@ static inline LightRay occlusion_ray(const Hit *hit, v3 ambient, global const Li
 static inline LightRay environment_ray(const Hit *hit, const Environment *environment, global const LightRecord *light)
 {
     LightRay ray;
-    const SampleBits bits = hit_random_bits(&hit->random, light, 0);
-    const SamplePoint point = sample_point(bits), choice = hit_random_point(&hit->random, light, 1);
     const v3 to_eye = v3_neg(hit->dir);
-    const vm by_map = choice.x < (vf)(0.5f);
+    // One coordinate of the point makes both choices and then, stretched, what is drawn: each choice has points that
+    // are spread as well as all are.
+    SampleBits bits = hit_random_bits(&hit->random, light);
+    const vm by_map = VI_FROM_VU(bits.x) >= (vi)(0);
+    bits.x = bits.x << 1;
     const EnvironmentSample drawn = environment_sample(environment, bits);
-    const v3 scattered = pbr_sample(&hit->pbr, hit->ns, to_eye, point.x, point.y, choice.y);
+    const SamplePoint point = sample_point(bits);
+    const vf share = pbr_lobe_share(&hit->pbr, hit->ns, to_eye);
+    const vf u = point.x < share ? point.x / share : (point.x - share) / (1.0f - share);
+    const v3 scattered = pbr_sample(&hit->pbr, hit->ns, to_eye, vf_clamp(u, 0.0f, 1.0f - ROUNDING), point.y, point.x);
     const EnvironmentSample seen = environment_look(environment, scattered);
     ray.dir = v3_select(by_map, drawn.dir, scattered);
     ray.length = (vf)(INFINITY);
@@ -205,7 +210,7 @@ OUTLINE LightRay light_ray(const Hit *hit, const Shading *shading, v3 diffuse, v
 #endif
 #if HAS_DIRECT_LIGHTS
 #if HAS_AREA_LIGHTS
-    const LightSample sample = light_sample(light, hit->point, hit_random_point(&hit->random, light, 0));
+    const LightSample sample = light_sample(light, hit->point, hit_random_point(&hit->random, light));
 #else
     const LightSample sample = punctual_sample(light, hit->point);
 #endif

@@ -41,8 +41,8 @@ static void is_about(f64 value, f64 expected)
 
 #define DARK "background 0 ambient 0 "
 
-// Two parallel mirrors that shine: the sum of k^i up to D, of (1 - k^(D + 1)) / (1 - k); what is missing is all
-// of the bound.
+// Two parallel mirrors that shine: the sum of k^i up to D, of (1 - k^(D + 1)) / (1 - k); what is missing is
+// all of the bound.
 static void parallel_mirrors(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// Pooled sums, and what is said of the error of samples: exact cases, limits, and the coverage of random ones.
+// Pooled sums, and what is said of the error of samples: exact cases, limits, and the coverage of random
+// ones.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -113,8 +114,8 @@ static void monotone(void **state)
     }
 }
 
-// Independent samples, white with probability p: each statement fails in at most 5 % of the cases; 67 of 1000 is
-// the 99 % quantile of the binomial.
+// Independent samples, white with probability p: each statement fails in at most 5 % of the cases; 67 of 1000
+// is the 99 % quantile of the binomial.
 static void coverage(void **state)
 {
     (void)state;

@@ -106,7 +106,7 @@ static void test_modes(void **state)
 {
     Arguments a;
     Error error;
-    assert_true(parse(*state, "--math|fast|--variant|low=--depth 1  --math=double|a.txt", &a, &error));
+    assert_true(parse(*state, "--variant|low=--depth 1  --math=double|--math|fast|a.txt", &a, &error));
     assert_int_equal(a.mode_count, 2);
     assert_string_equal(a.modes[0].name, "fast");
     assert_string_equal(a.modes[1].name, "low");

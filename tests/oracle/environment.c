@@ -2,10 +2,15 @@
 
 #include "transform.h"
 
+void environment_turn(Environment *environment, real degrees)
+{
+    environment->from_map = transform_rotate(vec(0, 1, 0), degrees);
+    environment->to_map = transform_rotate(vec(0, 1, 0), -degrees);
+}
+
 void environment_uv(const Environment *environment, Vec d, real *u, real *v)
 {
-    Transform turned = transform_rotate(vec(0, 1, 0), -environment->rotate);
-    d = transform_vector(&turned, d);
+    d = transform_vector(&environment->to_map, d);
     *u = 0.5L + atan2l(d.x, -d.z) / (2 * PI);
     *v = acosl(fminl(1, fmaxl(-1, d.y))) / PI;
 }
@@ -14,8 +19,7 @@ Vec environment_direction(const Environment *environment, real u, real v)
 {
     real around_y = 2 * PI * (u - 0.5L);
     real sine = sinl(PI * v);
-    Transform turned = transform_rotate(vec(0, 1, 0), environment->rotate);
-    return transform_vector(&turned, vec(sine * sinl(around_y), cosl(PI * v), -sine * cosl(around_y)));
+    return transform_vector(&environment->from_map, vec(sine * sinl(around_y), cosl(PI * v), -sine * cosl(around_y)));
 }
 
 static Vec map_value(const Environment *environment, real u, real v)

@@ -6,6 +6,8 @@
 #include "quadrature.h"
 #include "scene.h"
 
+/* Sets the environment's turn about y, in degrees. */
+void environment_turn(Environment *environment, real degrees);
 /* Where a unit direction looks the map up, both in [0, 1]. */
 void environment_uv(const Environment *environment, Vec d, real *u, real *v);
 /* Inverse of environment_uv. */
@@ -14,7 +16,7 @@ Vec environment_radiance(const Environment *environment, Vec d);
 
 /* Makes the tables of importance sampling. */
 void environment_prepare(Store *store, Environment *environment);
-/* A direction with a density about as the radiance. */
+/* A direction with a density about as the radiance; needs the tables. */
 Vec environment_choose(const Environment *environment, Square s);
 /* That density, by solid angle. */
 real environment_density(const Environment *environment, Vec d);

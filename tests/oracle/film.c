@@ -55,12 +55,13 @@ Vec film_pixel(const Scene *scene, const Camera *camera, int grid, int x, int y,
 {
     Vec sum = grey(0);
     real weights = 0;
-    /* The positions' own offsets: the one of a single position is 0 for every filter. */
+    /* One position a cell, each with a column and a row of its own, so that upright and level edges are met as
+     * well as others (the canonical arrangement of Kensler, "Correlated Multi-Jittered Sampling", 2013). */
     real step = 2 * filter_radius(scene->filter) / grid;
     for (int j = 0; j < grid; j++) {
         for (int i = 0; i < grid; i++) {
-            real fx = (i + 0.5L - grid / 2.0L) * step;
-            real fy = (j + 0.5L - grid / 2.0L) * step;
+            real fx = (i + (j + 0.5L) / grid - grid / 2.0L) * step;
+            real fy = (j + (i + 0.5L) / grid - grid / 2.0L) * step;
             real weight = filter_value(scene->filter, fx) * filter_value(scene->filter, fy);
             Vec value = position_value(scene, camera, x + 0.5L + fx + dx, y + 0.5L + fy + dy);
             sum = add(sum, scaled(value, weight));

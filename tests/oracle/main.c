@@ -21,7 +21,7 @@ static const char USAGE[] =
     "  --size WxH          image size in place of the scene's\n"
     "  --bits 8|16         bits of the PNG's values (8)\n"
     "  --offset DX,DY      moves every sample, in pixels (0,0)\n"
-    "  --samples-grid K    mean of K x K regular positions a pixel, by the filter's weights\n"
+    "  --samples-grid K    K x K staggered positions a pixel, by the filter's weights\n"
     "  --points N          points of each integral over a light, a lens, a hemisphere (256)\n"
     "  --unstable MASK     also writes a PNG: 255 where the value changes by more than the threshold\n"
     "                      at one of eight positions 0.02 pixel away\n"

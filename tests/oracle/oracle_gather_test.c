@@ -124,6 +124,7 @@ static void test_environment_directions(void **state)
 {
     (void)state;
     Environment environment = {.intensity = grey(1)};
+    environment_turn(&environment, 0);
     real u, v;
     environment_uv(&environment, vec(0, 0, -1), &u, &v);
     assert_near(u, 0.5L, 1e-18L);
@@ -137,7 +138,7 @@ static void test_environment_directions(void **state)
     environment_uv(&environment, vec(0, -1, 0), &u, &v);
     assert_near(v, 1, 1e-18L);
     /* A right-hand turn by 90 degrees takes -z to -x: what was ahead is found there. */
-    environment.rotate = 90;
+    environment_turn(&environment, 90);
     environment_uv(&environment, vec(-1, 0, 0), &u, &v);
     assert_near(u, 0.5L, 1e-18L);
     assert_vec_near(environment_direction(&environment, 0.5L, 0.5L), vec(-1, 0, 0), 1e-18L);
@@ -154,7 +155,8 @@ static void test_environment_sampling(void **state)
         texels[i] = grey(i == 2 ? 1000 : 1 + i);
     Image image = {4, 2, true, texels, texels};
     Store store = {NULL};
-    Environment environment = {.image = &image, .intensity = grey(1), .rotate = 30};
+    Environment environment = {.image = &image, .intensity = grey(1)};
+    environment_turn(&environment, 30);
     environment_prepare(&store, &environment);
     Lattice lattice = lattice_at(200000, grey(0), 0);
     real angle = 0, total = 0;
@@ -181,6 +183,7 @@ static real furnace(const char *material, Vec eye, int points)
     Vec texel;
     Image map = constant_map(&texel);
     scene.environment = (Environment){.image = &map, .intensity = grey(1)};
+    environment_turn(&scene.environment, 0);
     environment_prepare(&scene.store, &scene.environment);
     scene.points = points;
     scene.width = scene.height = 1;

@@ -111,6 +111,7 @@ static void parse_environment(Parser *parser)
     Scene *scene = parser->scene;
     Environment *environment = &scene->environment;
     environment->intensity = grey(1);
+    environment_turn(environment, 0);
     parse_open(parser);
     while (!parse_closed(parser)) {
         if (parse_accept(parser, "file"))
@@ -118,7 +119,7 @@ static void parse_environment(Parser *parser)
         else if (parse_accept(parser, "intensity"))
             environment->intensity = parse_color(parser);
         else if (parse_accept(parser, "rotate"))
-            environment->rotate = parse_number(parser);
+            environment_turn(environment, parse_number(parser));
         else
             parse_unknown(parser, "property");
     }

@@ -96,7 +96,7 @@ typedef struct Light {
 typedef struct Environment {
     const Image *image; /* NULL: there is none */
     Vec intensity;
-    real rotate; /* degrees */
+    Transform to_map, from_map; /* directions; by the angle `rotate` */
     real *rows;  /* of importance sampling: share of all rows up to each one, and of its texels in each row */
     real *texels;
 } Environment;

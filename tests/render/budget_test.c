@@ -1,5 +1,6 @@
-// The stated error of samples holds: renders with a thousand seeds each of scenes whose pixels are known, some
-// seen by one sample in a hundred. A statement at 95 % may fail in 67 of 1000, the 99 % quantile of the binomial.
+// The stated error of samples holds: renders with a thousand seeds each of scenes whose pixels are known,
+// some seen by one sample in a hundred. A statement at 95 % may fail in 67 of 1000, the 99 % quantile of the
+// binomial.
 #include <math.h>
 
 #include "budget/budget.h"
@@ -167,9 +168,9 @@ static void several_pixels(void **state)
     check(&known, SAMPLING_BOUNDED, true);
 }
 
-// Without a bound of radiance (a torus, out of sight, stands around the light) errors are taken for normal. Where
-// many samples see what there is that holds; where one in a hundred does it cannot, and the figures tell by how
-// much.
+// Without a bound of radiance (a torus, out of sight, stands around the light) errors are taken for normal.
+// Where many samples see what there is that holds; where one in a hundred does it cannot, and the figures
+// tell by how much.
 static void without_bound(void **state)
 {
     (void)state;

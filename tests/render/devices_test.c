@@ -1,5 +1,5 @@
-// Same scene, same bytes on every device that is here: pictures of the two scenes that have every feature, and
-// the functions of kernels/base over a million inputs. Needs two devices.
+// Same scene, same bytes on every device that is here: pictures of the two scenes that have every feature,
+// and the functions of kernels/base over a million inputs. Needs two devices.
 #include "scenes.h"
 #include "support.h"
 
@@ -87,7 +87,8 @@ static u32 bits_of(f32 x)
 // The results of every function on a device; the caller's to free.
 static f32 *results_of(Device *device, NumberTable *table)
 {
-    const size_t functions = sizeof FUNCTIONS / sizeof *FUNCTIONS, numbers = (size_t)NUMBERS_OUT * table->stride;
+    const size_t functions = sizeof FUNCTIONS / sizeof *FUNCTIONS;
+    const size_t numbers = (size_t)NUMBERS_OUT * table->stride;
     Error error = {0};
     Probe *probe = probe_create(device, PROBE_NUMBERS, &error);
     f32 *results = calloc(functions * numbers, sizeof *results);

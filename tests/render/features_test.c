@@ -90,6 +90,7 @@ static const struct {
     {"nodes", BIT(BVH)},           {"lights", BIT(LIGHTS)},   {"textures", BIT(CHECKER) | BIT(CHECKER3D) | BIT(IMAGE)},
     {"texels", BIT(IMAGE)},
     {"frames", BIT(CHECKER3D)},    {"film_low", BIT(SAMPLES)}, {"extras", BIT(TRIANGLE_EXTRA)},
+    {"film_m2", BIT(SAMPLES)},
     {"environment", BIT(ENVIRONMENT)}, {"environment_texels", BIT(ENVIRONMENT)},
     {"environment_cdf", BIT(ENVIRONMENT_LIGHT)}, {"environment_edges", BIT(ENVIRONMENT_LIGHT)},
     {"environment_levels", BIT(PREFILTERED)},

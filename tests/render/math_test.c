@@ -87,8 +87,8 @@ static Apart measure(const Picture *a, const Picture *b, const char *what, const
     apart.ulp_most = steps[3 * near - 1];
     free(errors);
     free(steps);
-    printf("%-28s %-8s median %.1e  p99 %.1e  most %.1e  (%u and %u ulp)  other sight %u of %u\n", what, which,
-           apart.median, apart.p99, apart.most, apart.ulp_p99, apart.ulp_most, apart.far, apart.pixels);
+    printf("%-28s %-8s median %.1e  p99 %.1e  most %.1e  (%u and %u ulp)  other sight %u of %u\n", what,
+           which, apart.median, apart.p99, apart.most, apart.ulp_p99, apart.ulp_most, apart.far, apart.pixels);
     return apart;
 }
 
@@ -322,9 +322,12 @@ int main(void)
         free(text);
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(test_double_and_exact, &f), cmocka_unit_test_prestate(test_double_shapes, &f),
-        cmocka_unit_test_prestate(test_fast, &f),             cmocka_unit_test_prestate(test_oracle, &f),
-        cmocka_unit_test_prestate(test_whole_numbers, &f),    cmocka_unit_test_prestate(test_film, &f),
+        cmocka_unit_test_prestate(test_double_and_exact, &f),
+        cmocka_unit_test_prestate(test_double_shapes, &f),
+        cmocka_unit_test_prestate(test_fast, &f),
+        cmocka_unit_test_prestate(test_oracle, &f),
+        cmocka_unit_test_prestate(test_whole_numbers, &f),
+        cmocka_unit_test_prestate(test_film, &f),
         cmocka_unit_test(test_no_doubles),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

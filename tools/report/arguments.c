@@ -32,8 +32,8 @@ const char *arguments_usage(void)
 {
     return "usage: clrt-report [options] SCENE...\n"
            "\n"
-           "Measures how fast clrt renders the scenes and how wrong the pictures are: a table, and a "
-           "folder with\n"
+           "Measures how fast clrt renders the scenes and how wrong the pictures are: a table, and a folder "
+           "with\n"
            "report.html, report.json, CSV, plots and maps.\n"
            "\n"
            "      --out DIR         the folder; a report that is there is replaced [report]\n"
@@ -250,20 +250,20 @@ static bool take(int option, const char *value, Arena *arena, Arguments *a, Erro
     }
 }
 
-// What was not given.
+// What was not given; --math before variants.
 static bool add_defaults(Arguments *a, bool math_given, Error *error)
 {
+    Arguments sorted = {.mode_count = 0};
+    if (!math_given && !parse_math("exact,fast,double", &sorted, error))
+        return false;
     // Before the variants, which a table compares with them.
-    if (!math_given) {
-        Arguments maths = {.mode_count = 0};
-        if (!parse_math("exact,fast,double", &maths, error))
-            return false;
+    for (int variants = 0; variants < 2; variants++)
         for (u32 i = 0; i < a->mode_count; i++)
-            if (!add_mode(&maths, a->modes[i], error))
+            if ((strcmp(a->modes[i].name, a->modes[i].math) != 0) == variants &&
+                !add_mode(&sorted, a->modes[i], error))
                 return false;
-        memcpy(a->modes, maths.modes, sizeof a->modes);
-        a->mode_count = maths.mode_count;
-    }
+    memcpy(a->modes, sorted.modes, sizeof a->modes);
+    a->mode_count = sorted.mode_count;
     if (a->sample_count == 0 && !parse_samples(a->quick ? "1,4,16" : "1,4,16,64", a, error))
         return false;
     a->out = a->out ? a->out : "report";

@@ -44,7 +44,7 @@ static void put_words(FILE *file, const json_t *array)
 {
     size_t i;
     json_t *word;
-    json_array_foreach(array, i, word)
+    json_array_foreach (array, i, word)
         fprintf(file, "%s%s", i ? " " : "", json_is_string(word) ? json_string_value(word) : "");
 }
 
@@ -74,8 +74,7 @@ static void put_columns(FILE *file, const json_t *shape, bool names, const json_
 {
     const char *key;
     json_t *value;
-    json_object_foreach((json_t *)(uintptr_t)shape, key, value)
-    {
+    json_object_foreach ((json_t *)(uintptr_t)shape, key, value) {
         char name[NAME_BYTES];
         snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", key);
         if (json_is_object(value)) {
@@ -97,8 +96,7 @@ static json_t *shape_of(const json_t *rows)
     json_t *shape = json_object();
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         json_t *copy = json_deep_copy(row); // the groups of a row must not become those of the shape
         json_object_update_recursive(shape, copy);
         json_decref(copy);
@@ -117,8 +115,7 @@ bool csv_write_rows(const json_t *rows, const char *path, Error *error)
     fputs("\n", file);
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         first = true;
         put_columns(file, shape, false, row, "", &first);
         fputs("\n", file);
@@ -144,10 +141,8 @@ bool csv_write_convergence(const json_t *rows, const char *path, Error *error)
     fputs("\n", file);
     size_t i, k;
     json_t *row, *point;
-    json_array_foreach(rows, i, row)
-    {
-        json_array_foreach(json_object_get(row, "convergence"), k, point)
-        {
+    json_array_foreach (rows, i, row) {
+        json_array_foreach (json_object_get(row, "convergence"), k, point) {
             put_value(file, doc_at(row, "run.scene"));
             fputc(',', file);
             put_value(file, doc_at(row, "run.device"));

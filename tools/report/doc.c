@@ -108,8 +108,8 @@ bool doc_write(const json_t *document, bool lines, const char *path, Error *erro
     if (lines) {
         size_t i;
         json_t *one;
-        json_array_foreach(document, i, one) ok =
-            ok && json_dumpf(one, file, JSON_COMPACT | digits) == 0 && fputc('\n', file) != EOF;
+        json_array_foreach (document, i, one)
+            ok = ok && json_dumpf(one, file, JSON_COMPACT | digits) == 0 && fputc('\n', file) != EOF;
     } else {
         ok = json_dumpf(document, file, JSON_INDENT(2) | digits) == 0 && fputc('\n', file) != EOF;
     }

@@ -25,14 +25,13 @@ typedef struct Trial {
 
 typedef struct Subject {
     size_t feature;
-    Trial used, unused, unused_base; // without unused_base the base serves
+    Trial base, used, unused, unused_base; // without unused_base the base serves
 } Subject;
 
 typedef struct Bench {
     Session *session;
     const char *folder;
     u32 rounds, count;
-    Trial base;
     Subject *subjects;
 } Bench;
 
@@ -101,14 +100,14 @@ static bool prepare_all(Bench *bench, Error *error)
     bench->subjects = arena_alloc(arena, FEATURE_SCENE_COUNT, sizeof *bench->subjects);
     if (!mesh || !path || !bench->subjects)
         return error_set(error, ERROR_MEMORY, "no memory for scenes of features");
-    bool ok = names_are_known(list, error) && write_text(path, mesh, error) &&
-              prepare(bench, &bench->base, 0, FEATURE_BASE, error);
+    bool ok = names_are_known(list, error) && write_text(path, mesh, error);
     for (size_t i = 0; i < FEATURE_SCENE_COUNT && ok; i++) {
         if (!is_wanted(list, i))
             continue;
         Subject *subject = &bench->subjects[bench->count++];
         subject->feature = i;
-        ok = prepare(bench, &subject->used, i, FEATURE_USED, error) &&
+        ok = prepare(bench, &subject->base, i, FEATURE_BASE, error) &&
+             prepare(bench, &subject->used, i, FEATURE_USED, error) &&
              prepare(bench, &subject->unused, i, FEATURE_UNUSED, error) &&
              prepare(bench, &subject->unused_base, i, FEATURE_UNUSED_BASE, error);
     }
@@ -143,10 +142,11 @@ static bool run_rounds(Bench *bench, Error *error)
     for (int round = -1; round < (int)bench->rounds && ok; round++) {
         session_say(bench->session, "features: %s %d of %u", round < 0 ? "compile" : "round", round + 1,
                     bench->rounds);
-        ok = run_trial(bench, &bench->base, round, error);
         for (u32 i = 0; i < bench->count && ok; i++) {
             Subject *subject = &bench->subjects[i];
-            ok = run_trial(bench, &subject->used, round, error) &&
+            // The base just before: on a machine with other work the next second is another time.
+            ok = run_trial(bench, &subject->base, round, error) &&
+                 run_trial(bench, &subject->used, round, error) &&
                  run_trial(bench, &subject->unused_base, round, error) &&
                  run_trial(bench, &subject->unused, round, error);
         }
@@ -202,8 +202,8 @@ static void append_results(const Bench *bench, json_t *features)
     f64 control = 0;
     for (u32 i = 0; i < bench->count; i++) {
         const Subject *subject = &bench->subjects[i];
-        const Trial *base = subject->unused_base.path ? &subject->unused_base : &bench->base;
-        json_t *used = trial_to_json(&subject->used, &bench->base, bench->rounds);
+        const Trial *base = subject->unused_base.path ? &subject->unused_base : &subject->base;
+        json_t *used = trial_to_json(&subject->used, &subject->base, bench->rounds);
         if (subject->feature == 0)
             control = doc_number(used, "added_ns_per_ray.mad");
         json_t *unused = subject->unused.path ? unused_to_json(&subject->unused, base, bench->rounds, control)
@@ -226,8 +226,8 @@ bool feature_costs_measure(Session *session, json_t *features, Error *error)
         folder_make(bench.folder, error) && prepare_all(&bench, error) && run_rounds(&bench, error);
     if (ok)
         append_results(&bench, features);
-    json_decref(bench.base.stats);
     for (u32 i = 0; i < bench.count; i++) {
+        json_decref(bench.subjects[i].base.stats);
         json_decref(bench.subjects[i].used.stats);
         json_decref(bench.subjects[i].unused.stats);
         json_decref(bench.subjects[i].unused_base.stats);

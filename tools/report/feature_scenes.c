@@ -25,16 +25,16 @@ typedef struct Parts {
 
 static const char BASE_CAMERA[] = "camera { position 0 1.3 5  look_at 0 0.2 0  fov 42 }";
 static const char BASE_LIGHT[] = "light point { position -3 5 4  intensity 30  attenuation 0 0 1 }";
-static const char BASE_SETTINGS[] = "render { shadows off }";
+static const char BASE_SETTINGS[] = "render { shadows off }\nambient 0";
 static const char THIRD_SPHERE[] = "sphere { center 1.4 0 0.3  radius 0.7  material plain }";
 
 static const Parts FEATURES[] = {
     {.name = "nothing", .what = "the base once more: what is left is noise", .needs_use = true},
     {.name = "shadows",
      .what = "shadow rays to the light",
-     .settings = "render { shadows on }",
-     .unused = "render { shadows on }",
-     .unused_from = "render { shadows off }"},
+     .settings = "render { shadows on }\nambient 0",
+     .unused = "render { shadows on }\nambient 0",
+     .unused_from = "render { shadows off }\nambient 0"},
     {.name = "checker",
      .what = "a checker of texture coordinates on all surfaces",
      .before = "texture squares checker { colors 0.9 0.3  scale 4 4 }",
@@ -57,11 +57,10 @@ static const Parts FEATURES[] = {
     {.name = "ambient",
      .what = "ambient light",
      .settings = "render { shadows off }\nambient 0.2",
-     .unused = "ambient 0",
-     .unused_from = ""},
+     .needs_use = true},
     {.name = "background",
      .what = "a background that is not black",
-     .settings = "render { shadows off }\nbackground 0.2 0.3 0.5",
+     .settings = "render { shadows off }\nambient 0\nbackground 0.2 0.3 0.5",
      .unused = "background 0",
      .unused_from = ""},
     {.name = "directional",

@@ -13,11 +13,9 @@ static const json_t *find_row(const json_t *rows, const char *scene, const char 
 {
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row) if (strcmp(doc_text(row, "run.scene"), scene) == 0 &&
-                                         strcmp(doc_text(row, "run.mode"), mode) ==
-                                             0) return json_is_null(doc_at(row, "run.unavailable"))
-        ? row
-        : NULL;
+    json_array_foreach (rows, i, row)
+        if (strcmp(doc_text(row, "run.scene"), scene) == 0 && strcmp(doc_text(row, "run.mode"), mode) == 0)
+            return json_is_null(doc_at(row, "run.unavailable")) ? row : NULL;
     return NULL;
 }
 
@@ -71,8 +69,7 @@ static void put_summary(FILE *file, const json_t *report)
     size_t i;
     json_t *row;
     fputs("<ul>\n", file);
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         const char *scene = doc_text(row, "run.scene");
         if (strcmp(scene, before) != 0)
             put_finding(file, rows, scene);
@@ -98,13 +95,12 @@ static void put_top(FILE *file, const json_t *report)
     fputs(" cold of each kind, in turns.</p>\n", file);
     if (json_is_true(doc_at(report, "settings.quick")))
         fputs("<div class=\"note warn\"><p><b>A quick report</b>: small pictures and few runs. Start-up "
-              "weighs more "
-              "in it than in the pictures people render, and its medians are of few values.</p></div>\n",
+              "weighs more in it than in the pictures people render, and its medians are of few "
+              "values.</p></div>\n",
               file);
     if (!doc_text(report, "settings.gnuplot"))
         fputs("<div class=\"note warn\"><p><b>No plots</b>: gnuplot was not found, or could not draw them. "
-              "Their "
-              "data and scripts are in the folder <code>plots</code>.</p></div>\n",
+              "Their data and scripts are in the folder <code>plots</code>.</p></div>\n",
               file);
 }
 
@@ -112,18 +108,13 @@ static void put_reading(FILE *file)
 {
     fputs(
         "<div class=\"note\"><p><b>Two errors, never mixed.</b> <i>Arithmetic</i> error is what single "
-        "precision "
-        "does to the same samples, measured against double. <i>Sampling</i> error is what too few samples "
-        "leave "
-        "undecided, measured against a converged picture whose own uncertainty is known.</p>"
-        "<p><b>Modes.</b> <i>exact</i> is the default: the same bytes on every device. <i>fast</i> uses the "
-        "device's native functions and contraction. <i>double</i> is the reference for arithmetic. Other "
-        "names are "
-        "variants by options of clrt.</p>"
-        "<p><b>Radiance</b> is linear light, 1 is white; all errors are of radiance, before tone mapping, "
-        "FLIP "
-        "excepted, which is of what a display shows at 67 pixels per degree, values above white cut "
-        "off.</p></div>\n",
+        "precision does to the same samples, measured against double. <i>Sampling</i> error is what too few "
+        "samples leave undecided, measured against a converged picture whose own uncertainty is "
+        "known.</p><p><b>Modes.</b> <i>exact</i> is the default: the same bytes on every device. "
+        "<i>fast</i> uses the device's native functions and contraction. <i>double</i> is the reference for "
+        "arithmetic. Other names are variants by options of clrt.</p><p><b>Radiance</b> is linear light, 1 "
+        "is white; all errors are of radiance, before tone mapping, FLIP excepted, which is of what a "
+        "display shows at 67 pixels per degree, values above white cut off.</p></div>\n",
         file);
 }
 
@@ -165,26 +156,22 @@ static bool put_features(FILE *file, const Session *session, const json_t *repor
     if (json_array_size(features) == 0)
         return true;
     fputs("<h2>What a feature costs</h2>\n<p>A small scene (a plane, three spheres, one light, no shadows) "
-          "and, for "
-          "each feature of the language, the same scene with that feature added alone; a shape stands in the "
-          "place of "
-          "one of the spheres. Nanoseconds of kernel time a ray, the difference to the plain scene of the "
-          "same round: "
-          "median and MAD. A ray is a ray of any kind, so that mirrored and shadow rays, which are cheaper "
-          "than camera "
-          "rays, can make the mean ray cheaper. <i>Declared but unused</i>: a torus in an object that is "
-          "never placed, "
-          "a material on nothing. That must be 0 within noise, and its program the same.</p>\n",
+          "and, for each feature of the language, the same scene with that feature added alone; a shape "
+          "stands in the place of one of the spheres. Nanoseconds of kernel time a ray, the difference to "
+          "the plain scene just before: median and MAD. A ray is a ray of any kind, so that mirrored "
+          "and shadow rays, which are cheaper than camera rays, can make the mean ray cheaper. <i>Declared "
+          "but unused</i>: a torus in an object that is never placed, a material on nothing. That must be 0 "
+          "within noise, and its program the same.</p>\n",
           file);
     if (!html_plot_write(file, session, report, "features", NULL,
                          "Cost of each feature added alone, and of its declaration without use.", error))
         return false;
-    page_table(file,
-               "feature|what is added|ns/ray|added ns/ray|unused:<br>added ns/ray|within<br>noise|same<br>"
-               "program");
+    page_table(file, "feature|what is added|ns/ray|added ns/ray|unused:<br>added "
+                     "ns/ray|within<br>noise|same<br>program");
     size_t i;
     json_t *one;
-    json_array_foreach(features, i, one) put_feature(file, one);
+    json_array_foreach (features, i, one)
+        put_feature(file, one);
     fputs("</table></div>\n", file);
     return true;
 }
@@ -197,8 +184,7 @@ static bool put_ulp(FILE *file, const Session *session, const json_t *report, Er
     if (json_array_size(shapes) == 0)
         return true;
     fputs("<h2>Arithmetic of the shapes</h2>\n<p>Distances along random rays as the device finds them, "
-          "against a "
-          "reference of higher precision, in units in the last place.</p>\n",
+          "against a reference of higher precision, in units in the last place.</p>\n",
           file);
     if (!html_plot_write(
             file, session, report, "ulp", NULL,
@@ -207,8 +193,7 @@ static bool put_ulp(FILE *file, const Session *session, const json_t *report, Er
     page_table(file, "shape|rays|p99 ulp|max ulp");
     size_t i;
     json_t *shape;
-    json_array_foreach(shapes, i, shape)
-    {
+    json_array_foreach (shapes, i, shape) {
         fputs("<tr>", file);
         page_cell_text(file, doc_text(shape, "name"));
         page_cell(file, doc_number(shape, "rays"));
@@ -231,8 +216,7 @@ static void put_self_test(FILE *file, const json_t *report)
     page_table(file, "case|what|worst|bar|unit|passed");
     size_t i;
     json_t *one;
-    json_array_foreach(cases, i, one)
-    {
+    json_array_foreach (cases, i, one) {
         fputs("<tr>", file);
         page_cell_text(file, doc_text(one, "case"));
         page_cell_text(file, doc_text(one, "what"));
@@ -251,8 +235,7 @@ static void put_missing(FILE *file, const json_t *report)
 {
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row)
-    {
+    json_array_foreach (json_object_get(report, "rows"), i, row) {
         const char *reason = doc_text(row, "run.unavailable");
         if (!reason)
             continue;
@@ -270,26 +253,21 @@ static void put_caveats(FILE *file, const json_t *report)
 {
     fputs("<h2>What to keep in mind</h2>\n<ul>\n"
           "<li>Seconds are of one machine with whatever else ran on it. Modes took turns, so that a "
-          "disturbance falls "
-          "on all of them; MAD shows what is left of it.</li>\n"
+          "disturbance falls on all of them; MAD shows what is left of it.</li>\n"
           "<li>Double precision is the same program text. A mistake in a formula is in both and does not "
-          "show here; "
-          "closed forms and an independent renderer in the tests answer for that.</li>\n"
+          "show here; closed forms and an independent renderer in the tests answer for that.</li>\n"
           "<li>The converged picture has an error of its own, stated above. It adds to the MSE of each "
-          "candidate, at "
-          "most a sixteenth of it.</li>\n"
-          "<li>Kernel seconds are those that the host waits for launches, transfers of the picture included. "
-          "Building "
-          "the hierarchy is part of the layout, uploads of the scene part of opening the device and of the "
-          "kernels: clrt does not tell them apart, and their columns are null.</li>\n"
+          "candidate, at most a sixteenth of it.</li>\n"
+          "<li>Kernel seconds are those that the host waits for launches, transfers of the picture "
+          "included. Building the hierarchy is part of the layout, uploads of the scene part of opening the "
+          "device and of the kernels: clrt does not tell them apart, and their columns are null.</li>\n"
           "<li>Sampling figures but RMSE, its interval, bias and times are of the first seed.</li>\n",
           file);
     put_missing(file, report);
     fputs("</ul>\n<p>All figures at full precision: <code>report.json</code> (schema "
-          "<code>clrt-report/1</code>), "
-          "<code>rows.jsonl</code>, <code>report.csv</code>, <code>convergence.csv</code>. Plots can be "
-          "drawn again "
-          "by <code>gnuplot</code> from the folder <code>plots</code>.</p>\n",
+          "<code>clrt-report/1</code>), <code>rows.jsonl</code>, <code>report.csv</code>, "
+          "<code>convergence.csv</code>. Plots can be drawn again by <code>gnuplot</code> from the folder "
+          "<code>plots</code>.</p>\n",
           file);
 }
 
@@ -298,8 +276,7 @@ static bool put_scenes(FILE *file, const Session *session, const json_t *report,
     const char *before = "";
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row)
-    {
+    json_array_foreach (json_object_get(report, "rows"), i, row) {
         const char *scene = doc_text(row, "run.scene");
         if (strcmp(scene, before) != 0 && !html_scene_write(file, session, report, scene, error))
             return false;

@@ -25,7 +25,7 @@ static const char STYLE[] =
     "figcaption{font-size:13px;color:#424a53;max-width:70ch}\n"
     "img{max-width:100%;height:auto;border:1px solid #e3e6ea}\n"
     ".row{display:flex;flex-wrap:wrap;gap:18px}\n.row figure{flex:0 1 340px;margin:8px 0}\n"
-    "figure.small img{min-width:min(480px,100%);image-rendering:pixelated}\n"
+    "table.left th{text-align:left}\nfigure.small img{min-width:min(480px,100%);image-rendering:pixelated}\n"
     ".note{max-width:78ch;background:#f6f8fa;border-left:4px solid #8a929c;padding:8px 14px;margin:14px 0}\n"
     ".warn{border-left-color:#d55e00}\n.note p{margin:4px 0}\n";
 

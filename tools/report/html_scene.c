@@ -13,8 +13,7 @@ bool html_plot_write(FILE *file, const Session *session, const json_t *report, c
 {
     size_t i;
     json_t *plot;
-    json_array_foreach(json_object_get(report, "plots"), i, plot)
-    {
+    json_array_foreach (json_object_get(report, "plots"), i, plot) {
         const char *of = doc_text(plot, "scene"), *name = doc_text(plot, "file");
         if (strcmp(doc_text(plot, "kind"), kind) != 0 || !name ||
             (of ? !scene || strcmp(of, scene) != 0 : !!scene))
@@ -54,24 +53,22 @@ static bool put_picture(FILE *file, const Session *session, const json_t *row, c
 static bool put_maps(FILE *file, const Session *session, const json_t *rows, const char *scene, Error *error)
 {
     fputs("<h3>Where the errors are</h3><p>Each pixel's largest error of radiance over its three colours, "
-          "all maps of "
-          "all reports on one logarithmic scale from 10<sup>&minus;8</sup> to 1. Black: no difference at "
-          "all.</p>\n"
-          "<div class=\"row\">\n",
+          "all maps of all reports on one logarithmic scale from 10<sup>&minus;8</sup> to 1. Black: no "
+          "difference at all.</p>\n",
           file);
     bool ok = true;
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         if (!html_row_is_of(row, scene) || !html_row_is_available(row))
             continue;
+        fputs("<div class=\"row\">\n", file);
         ok = ok &&
              put_picture(file, session, row, "files.map_r64", "arithmetic error, against double", error) &&
              put_picture(file, session, row, "files.map_rinf",
                          "all of the error, against the converged picture", error);
+        fputs("</div>\n", file);
     }
-    fputs("</div>\n", file);
     return ok;
 }
 
@@ -98,8 +95,7 @@ static void put_identity(FILE *file, const json_t *row)
     fputs("</p>\n<p><small>features</small> ", file);
     size_t i;
     json_t *feature;
-    json_array_foreach(doc_at(row, "run.features"), i, feature)
-    {
+    json_array_foreach (doc_at(row, "run.features"), i, feature) {
         fputs(i ? ", " : "", file);
         page_text(file, json_string_value(feature));
     }
@@ -110,7 +106,9 @@ static const json_t *first_row(const json_t *rows, const char *scene)
 {
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row) if (html_row_is_of(row, scene) && html_row_is_available(row)) return row;
+    json_array_foreach (rows, i, row)
+        if (html_row_is_of(row, scene) && html_row_is_available(row))
+            return row;
     return NULL;
 }
 
@@ -139,19 +137,18 @@ bool html_scene_write(FILE *file, const Session *session, const json_t *report, 
     html_tables_slopes(file, rows, scene);
     if (!html_plot_write(
             file, session, report, "convergence", scene,
-            "Error against time, from few to many samples; bars are 95 % intervals, mostly smaller "
-            "than the dots. The grey line falls as plain Monte Carlo does.",
+            "Error against time, from few to many samples; bars are 95 % intervals, mostly smaller than the "
+            "dots. The grey line falls as plain Monte Carlo does.",
             error) ||
         !html_plot_write(
             file, session, report, "pareto", scene,
-            "All ways to render this scene: the number beside a dot is its samples a pixel. What lies "
-            "above and to the right of the grey steps is beaten in both time and error.",
+            "All ways to render this scene: the number beside a dot is its samples a pixel. What lies above "
+            "and to the right of the grey steps is beaten in both time and error.",
             error) ||
         !put_maps(file, session, rows, scene, error))
         return false;
     fputs("<h3>Error budget</h3><p>What clrt states of each picture, beside the largest arithmetic error "
-          "measured "
-          "above (<code>e_arith</code>). What is not listed, or has a dash, is not stated.</p>\n",
+          "measured above (<code>e_arith</code>). What is not listed, or has a dash, is not stated.</p>\n",
           file);
     html_tables_group(file, rows, scene, "budget");
     fputs("<h3>Health</h3>\n", file);

@@ -36,20 +36,16 @@ static void put_spread(FILE *file, const json_t *row, const char *path)
 void html_tables_times(FILE *file, const json_t *rows, const char *scene)
 {
     fputs("<h3>Time, rays, memory</h3><p>Seconds from the start of the process to its end, and of two of its "
-          "stages. "
-          "Cold: the drivers' caches of compiled kernels are empty. Each figure is a median, below it the "
-          "median "
-          "distance from it (MAD). <i>Kernels, of exact</i>: kernel seconds over those of mode exact in the "
-          "same round, at "
-          "the most samples measured, where noise weighs least.</p>\n",
+          "stages. Cold: the drivers' caches of compiled kernels are empty. Each figure is a median, below "
+          "it the median distance from it (MAD). <i>Kernels, of exact</i>: kernel seconds over those of "
+          "mode exact in the same round, at the most samples measured, where noise weighs least.</p>\n",
           file);
     page_table(
         file, "mode|warm run, s|cold run, s|compile<br>cold, s|compile<br>warm, s|kernels<br>warm, s|Mrays/s|"
               "ns/ray|kernels, of<br>exact|device<br>peak, MiB|host<br>peak, MiB");
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         if (!html_row_is_of(row, scene))
             continue;
         fputs("<tr>", file);
@@ -80,8 +76,7 @@ void html_tables_rays(FILE *file, const json_t *rows, const char *scene)
     page_table(file, "mode|camera rays|shadow rays|mirrored rays|transmitted rays|all rays");
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         if (!html_row_is_of(row, scene) || !html_row_is_available(row))
             continue;
         fputs("<tr>", file);
@@ -123,21 +118,17 @@ static void put_distance(FILE *file, const json_t *row, const char *group)
 void html_tables_arithmetic(FILE *file, const json_t *rows, const char *scene)
 {
     fputs("<h3>Arithmetic error</h3><p>The same kernels in double precision, at the same sample positions, "
-          "are the "
-          "right answer (R64), so that there is no noise in this: what is left is rounding, and the few "
-          "samples for "
-          "which rounding decides which object, which shadow or which square of a checker they see. Those "
-          "make the "
-          "largest differences; the 99th percentile tells of all others. Radiance 1 is white.</p>\n",
+          "are the right answer (R64), so that there is no noise in this: what is left is rounding, and the "
+          "few samples for which rounding decides which object, which shadow or which square of a checker "
+          "they see. Those make the largest differences; the 99th percentile tells of all others. Radiance "
+          "1 is white.</p>\n",
           file);
     page_table(
         file, "mode|samples|max ulp|max error|p99 error|RMSE|values that<br>differ, %|pixels with<br>another "
-              "object|"
-              "of pixels");
+              "object|of pixels");
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         if (!html_row_is_of(row, scene) || !html_row_is_available(row))
             continue;
         put_distance(file, row, "error.r64");
@@ -189,16 +180,14 @@ static void put_reference(FILE *file, const json_t *reference)
     fputs("</code>, the mean of ", file);
     page_number(file, doc_number(reference, "parts"));
     fputs(" independent renders with seeds that no candidate has. Their spread gives the reference's own "
-          "standard "
-          "error a value: ",
+          "standard error a value: ",
           file);
     page_number(file, doc_number(reference, "standard_error"));
     fputs(
-        ". Where that is more than a quarter of an error, the error is refused. In brackets of small "
-        "print: 95 % "
-        "intervals over the candidate's seeds. Bias is the mean of candidate minus reference over the whole "
-        "picture; one sample a pixel is always the pixel's centre, so that its whole error is bias of a kind "
-        "that no second seed shows. Efficiency is 1/(MSE&thinsp;&times;&thinsp;seconds): more is "
+        ". Where that is more than a quarter of an error, the error is refused. In brackets of small print: "
+        "95 % intervals over the candidate's seeds. Bias is the mean of candidate minus reference over the "
+        "whole picture; one sample a pixel is always the pixel's centre, so that its whole error is bias of "
+        "a kind that no second seed shows. Efficiency is 1/(MSE&thinsp;&times;&thinsp;seconds): more is "
         "better.</p>\n",
         file);
 }
@@ -208,19 +197,19 @@ void html_tables_sampling(FILE *file, const json_t *rows, const char *scene)
     size_t i, k;
     json_t *row, *point;
     bool begun = false;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         if (!html_row_is_of(row, scene) || !html_row_is_available(row))
             continue;
         if (!begun) {
             fputs("<h3>Sampling error and efficiency</h3>", file);
             put_reference(file, doc_at(row, "error.rinf.reference"));
             page_table(file,
-                       "mode|samples|run, s|kernels, s|RMSE|relMSE|PSNR, dB|FLIP|bias|efficiency,<br>run|"
-                       "efficiency,<br>kernels");
+                       "mode|samples|run, s|kernels, s|RMSE|relMSE|PSNR, "
+                       "dB|FLIP|bias|efficiency,<br>run|efficiency,<br>kernels");
             begun = true;
         }
-        json_array_foreach(json_object_get(row, "convergence"), k, point) put_point(file, row, point, k == 0);
+        json_array_foreach (json_object_get(row, "convergence"), k, point)
+            put_point(file, row, point, k == 0);
     }
     if (begun)
         fputs("</table></div>\n", file);
@@ -229,16 +218,13 @@ void html_tables_sampling(FILE *file, const json_t *rows, const char *scene)
 void html_tables_slopes(FILE *file, const json_t *rows, const char *scene)
 {
     fputs("<p>Slope of log RMSE on log seconds, with its 95 % interval: &minus;&frac12; is plain Monte "
-          "Carlo, steeper "
-          "is what well-distributed samples gain, flatter is time that does not depend on the samples, or "
-          "bias. "
-          "Seconds to RMSE 0.01 are read from the fitted line of whole runs.</p>\n",
+          "Carlo, steeper is what well-distributed samples gain, flatter is time that does not depend on "
+          "the samples, or bias. Seconds to RMSE 0.01 are read from the fitted line of whole runs.</p>\n",
           file);
     page_table(file, "mode|slope, kernels|slope, run|seconds to<br>RMSE 0.01|");
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         const json_t *e = json_object_get(row, "efficiency");
         if (!html_row_is_of(row, scene) || !html_row_is_available(row))
             continue;
@@ -277,8 +263,7 @@ static bool is_known(const json_t *rows, const char *scene, const char *group, c
 {
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row)
-    {
+    json_array_foreach (rows, i, row) {
         const json_t *value = json_object_get(json_object_get(row, group), key);
         if (html_row_is_of(row, scene) && html_row_is_available(row) && value && !json_is_null(value))
             return true;
@@ -292,9 +277,8 @@ void html_tables_group(FILE *file, const json_t *rows, const char *scene, const 
     const char *key;
     json_t *value, *row, *keys = json_object();
     size_t i;
-    fputs("<div class=\"wide\"><table><tr><th></th>", file);
-    json_array_foreach(rows, i, row)
-    {
+    fputs("<div class=\"wide\"><table class=\"left\"><tr><th></th>", file);
+    json_array_foreach (rows, i, row) {
         if (!html_row_is_of(row, scene) || !html_row_is_available(row))
             continue;
         json_object_update(keys, json_object_get(row, group));
@@ -303,15 +287,13 @@ void html_tables_group(FILE *file, const json_t *rows, const char *scene, const 
         fputs("</th>", file);
     }
     fputs("</tr>\n", file);
-    json_object_foreach(keys, key, value)
-    {
+    json_object_foreach (keys, key, value) {
         if (json_is_object(value) || json_is_array(value) || !is_known(rows, scene, group, key))
             continue;
         fputs("<tr><td><code>", file);
         page_text(file, key);
         fputs("</code></td>", file);
-        json_array_foreach(rows, i, row)
-        {
+        json_array_foreach (rows, i, row) {
             if (!html_row_is_of(row, scene) || !html_row_is_available(row))
                 continue;
             fputs("<td class=\"text\">", file);

@@ -64,8 +64,9 @@ static bool has_error(const json_t *row)
 {
     size_t i;
     json_t *point;
-    json_array_foreach(json_object_get(row, "convergence"), i,
-                       point) if (doc_number(point, "rmse") > 0) return true;
+    json_array_foreach (json_object_get(row, "convergence"), i, point)
+        if (doc_number(point, "rmse") > 0)
+            return true;
     return false;
 }
 
@@ -74,8 +75,7 @@ static void put_convergence(FILE *data, const json_t *row)
 {
     size_t i;
     json_t *point;
-    json_array_foreach(json_object_get(row, "convergence"), i, point)
-    {
+    json_array_foreach (json_object_get(row, "convergence"), i, point) {
         const f64 rmse = doc_number(point, "rmse");
         f64 low = doc_number(point, "rmse_low"), high = doc_number(point, "rmse_high");
         if (!(rmse > 0))
@@ -95,16 +95,16 @@ static void put_panel(FILE *script, const json_t *rows, const char *scene, int c
     json_t *row, *point;
     Range seconds = NO_RANGE, errors = NO_RANGE;
     Point start = {0, 0};
-    json_array_foreach(rows, i, row) json_array_foreach(
-        json_object_get(row, "convergence"), k, point) if (is_of(row, scene) && doc_number(point, "rmse") > 0)
-    {
-        const f64 at = doc_number(point, column == 1 ? "wall_s.median" : "kernel_s.median");
-        start = start.rmse > 0 ? start : (Point){at, doc_number(point, "rmse")};
-        widen(&seconds, at);
-        widen(&errors, doc_number(point, "rmse"));
-        widen(&errors, doc_number(point, "rmse_low"));
-        widen(&errors, doc_number(point, "rmse_high"));
-    }
+    json_array_foreach (rows, i, row)
+        json_array_foreach (json_object_get(row, "convergence"), k, point)
+            if (is_of(row, scene) && doc_number(point, "rmse") > 0) {
+                const f64 at = doc_number(point, column == 1 ? "wall_s.median" : "kernel_s.median");
+                start = start.rmse > 0 ? start : (Point){at, doc_number(point, "rmse")};
+                widen(&seconds, at);
+                widen(&errors, doc_number(point, "rmse"));
+                widen(&errors, doc_number(point, "rmse_low"));
+                widen(&errors, doc_number(point, "rmse_high"));
+            }
     put_axis(script, 'x', seconds, 1.4);
     put_axis(script, 'y', errors, 1.4);
     fprintf(script,
@@ -112,12 +112,12 @@ static void put_panel(FILE *script, const json_t *rows, const char *scene, int c
             "plot %.6g * (x / %.6g)**-0.5 lc rgb '#999999' lw 1.5 dt 2 title 'slope -1/2'",
             what, start.rmse, start.seconds);
     int index = 0;
-    json_array_foreach(rows, i, row) if (is_of(row, scene) && has_error(row))
-    {
-        fprintf(script, ", data index %d using %d:3:4:5 with yerrorlines lt %d title '%s'", index, column,
-                index + 1, doc_text(row, "run.mode"));
-        index++;
-    }
+    json_array_foreach (rows, i, row)
+        if (is_of(row, scene) && has_error(row)) {
+            fprintf(script, ", data index %d using %d:3:4:5 with yerrorlines lt %d title '%s'", index, column,
+                    index + 1, doc_text(row, "run.mode"));
+            index++;
+        }
     fputs("\n", script);
 }
 
@@ -133,8 +133,10 @@ static bool draw_convergence(const Session *session, json_t *report, const char 
     fputs("# wall_s kernel_s rmse rmse_low rmse_high spp\n", plot.data);
     size_t i;
     json_t *row;
-    json_array_foreach(rows, i, row) if (is_of(row, scene) && has_error(row)) put_convergence(plot.data, row);
-    fputs("set multiplot layout 1,2\nset logscale xy\n", plot.script);
+    json_array_foreach (rows, i, row)
+        if (is_of(row, scene) && has_error(row))
+            put_convergence(plot.data, row);
+    fputs("set multiplot layout 1,2\nset logscale xy\nset key left bottom Left reverse\n", plot.script);
     put_panel(plot.script, rows, scene, 1, "whole run, from the start of the process to its end");
     put_panel(plot.script, rows, scene, 2, "kernels alone");
     fputs("unset multiplot\n", plot.script);
@@ -172,12 +174,10 @@ static int put_pareto(Plot *plot, const json_t *report, const char *scene, bool 
     int blocks = 0;
     FILE *data = plot->data;
     json_t *row, *point;
-    json_array_foreach(json_object_get(report, "rows"), i, row)
-    {
+    json_array_foreach (json_object_get(report, "rows"), i, row) {
         if (!is_of(row, scene) || !has_error(row))
             continue;
-        json_array_foreach(json_object_get(row, "convergence"), k, point)
-        {
+        json_array_foreach (json_object_get(row, "convergence"), k, point) {
             const Point at = {doc_number(point, "wall_s.median"), doc_number(point, "rmse")};
             if (!(at.rmse > 0) || !(at.seconds > 0) || count == POINTS_MAX)
                 continue;
@@ -187,8 +187,7 @@ static int put_pareto(Plot *plot, const json_t *report, const char *scene, bool 
         fputs("\n\n", data);
         blocks++;
     }
-    json_array_foreach(json_object_get(report, "peers"), i, point)
-    {
+    json_array_foreach (json_object_get(report, "peers"), i, point) {
         const Point at = {doc_number(point, "seconds"), doc_number(point, "rmse")};
         fprintf(data, "%.9g %.9g ", at.seconds, at.rmse);
         plot_put_name(data, doc_text(point, "name"));
@@ -202,7 +201,7 @@ static int put_pareto(Plot *plot, const json_t *report, const char *scene, bool 
         widen(&seconds, points[i].seconds);
         widen(&errors, points[i].rmse);
     }
-    put_axis(plot->script, 'x', seconds, 1.3);
+    put_axis(plot->script, 'x', seconds, 1.6);
     put_axis(plot->script, 'y', errors, 1.3);
     put_front(data, points, count);
     return blocks;
@@ -220,26 +219,26 @@ static bool draw_pareto(const Session *session, json_t *report, const char *scen
     fputs("# seconds rmse samples; the last block is the front\n", plot.data);
     const int blocks = put_pareto(&plot, report, scene, peers);
     fprintf(plot.script,
-            "set logscale xy\nset key outside right top\nset xlabel 'seconds of the whole run (median)'\nset "
-            "ylabel 'RMSE of radiance'\n"
-            "plot data index %d using 1:2 with steps lc rgb '#999999' lw 2 title 'front: nothing beats it in "
-            "both'",
+            "set logscale xy\nset key outside right top Left reverse\nset xlabel 'seconds of the whole run "
+            "(median)'\nset ylabel 'RMSE of radiance'\n"
+            "plot data index %d using 1:2 with steps lc rgb '#999999' lw 2 title 'front: nothing beats it "
+            "in both'",
             blocks + peers);
     size_t i;
     int index = 0;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row) if (is_of(row, scene) && has_error(row))
-    {
-        fprintf(plot.script,
-                ", data index %d using 1:2 with points lt %d ps 1.2 title '%s'"
-                ", data index %d using 1:2:3 with labels left offset 0.9,0.3 tc lt %d font ',10' notitle",
-                index, index + 1, doc_text(row, "run.mode"), index, index + 1);
-        index++;
-    }
+    json_array_foreach (json_object_get(report, "rows"), i, row)
+        if (is_of(row, scene) && has_error(row)) {
+            fprintf(plot.script,
+                    ", data index %d using 1:2 with points lt %d ps 1.2 title '%s', data index %d using "
+                    "1:2:3 with labels left offset 0.9,0.3 tc lt %d font ',10' notitle",
+                    index, index + 1, doc_text(row, "run.mode"), index, index + 1);
+            index++;
+        }
     if (peers)
         fprintf(plot.script,
-                ", data index %d using 1:2 with points lc rgb 'black' pt 2 ps 1.2 title 'other renderers'"
-                ", data index %d using 1:2:3 with labels left offset 0.9,0.3 font ',11' notitle",
+                ", data index %d using 1:2 with points lc rgb 'black' pt 2 ps 1.2 title 'other renderers', "
+                "data index %d using 1:2:3 with labels left offset 0.9,0.3 font ',11' notitle",
                 blocks, blocks);
     fputs("\n", plot.script);
     return plot_close(&plot, json_object_get(report, "plots"), scene, "pareto", error);
@@ -290,9 +289,9 @@ static bool draw_stages(const Session *session, json_t *report, const char *scen
     size_t i;
     json_t *row;
     for (size_t h = 0; h < 2; h++) {
-        json_array_foreach(json_object_get(report, "rows"), i,
-                           row) if (is_of(row, scene) && json_is_null(doc_at(row, "run.unavailable")))
-            put_stages(plot.data, row, HEATS[h]);
+        json_array_foreach (json_object_get(report, "rows"), i, row)
+            if (is_of(row, scene) && json_is_null(doc_at(row, "run.unavailable")))
+                put_stages(plot.data, row, HEATS[h]);
         fputs("\n\n", plot.data);
     }
     fputs("set style data histograms\nset style histogram rowstacked\nset style fill solid 1 border rgb "
@@ -304,7 +303,7 @@ static bool draw_stages(const Session *session, json_t *report, const char *scen
         fprintf(plot.script, "set title '%s'\nset lmargin at screen %g\nset rmargin at screen %g\n%splot ",
                 h ? "warm: kernels come from the cache" : "cold: kernel caches are empty", h ? 0.4 : 0.06,
                 h ? 0.67 : 0.33,
-                h ? "set key at screen 0.99, screen 0.85 vertical reverse Left invert\n" : "");
+                h ? "unset ylabel\nset key at screen 0.99, screen 0.85 vertical reverse Left invert\n" : "");
         for (size_t b = 0; b < BAR_COUNT; b++)
             fprintf(plot.script, "%sdata index %d using %zu:xtic(1) lt %zu title '%s'", b ? ", " : "", h,
                     b + 2, b == 0 ? 8 : b, BARS[b].title);
@@ -319,8 +318,7 @@ static bool draw_scene(const Session *session, json_t *report, const char *scene
     bool available = false, errors = false;
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row)
-    {
+    json_array_foreach (json_object_get(report, "rows"), i, row) {
         if (!is_of(row, scene))
             continue;
         available = available || json_is_null(doc_at(row, "run.unavailable"));
@@ -343,8 +341,7 @@ bool plots_make(const Session *session, json_t *report, Error *error)
     bool ok = true;
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row)
-    {
+    json_array_foreach (json_object_get(report, "rows"), i, row) {
         const char *scene = doc_text(row, "run.scene");
         if (ok && scene && strcmp(scene, before) != 0)
             ok = draw_scene(session, report, scene, error);

@@ -32,15 +32,16 @@ bool plots_overall_features(const Session *session, json_t *report, Error *error
     fputs("# feature added_ns mad unused_added_ns mad\n", plot.data);
     size_t i;
     json_t *one;
-    json_array_foreach(features, i, one) put_feature(plot.data, one);
+    json_array_foreach (features, i, one)
+        put_feature(plot.data, one);
     fprintf(
         plot.script,
         "set yrange [%u.5:-0.7]\nset xlabel 'ns a ray more than the scene without it (median and MAD)'\n"
-        "set style fill solid 0.8 noborder\nset key bottom right\nset xzeroaxis\n"
+        "set style fill solid 0.8 noborder\nset key bottom right\n"
         "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444' lw 1\n"
-        "plot data using 2:0:(0):2:($0-0.32):($0+0.32):ytic(1) with boxxyerror lc rgb '#0072b2' title 'used',"
-        " data using 2:0:3 with xerrorbars lc rgb '#003a5c' lw 1.5 pt 0 notitle,"
-        " data using 4:0:5 with xerrorbars lc rgb '#d55e00' lw 1.5 pt 7 ps 0.6 title 'declared but unused'\n",
+        "plot data using 2:0:(0):2:($0-0.32):($0+0.32):ytic(1) with boxxyerror lc rgb '#0072b2' title "
+        "'used', data using 2:0:3 with xerrorbars lc rgb '#003a5c' lw 1.5 pt 0 notitle, data using 4:0:5 "
+        "with xerrorbars lc rgb '#d55e00' lw 1.5 pt 7 ps 0.6 title 'declared but unused'\n",
         count - 1);
     return plot_close(&plot, json_object_get(report, "plots"), NULL, "features", error);
 }
@@ -52,9 +53,9 @@ static void put_shape(FILE *data, const json_t *shape)
     f64 sum = 0;
     size_t i;
     json_t *bin;
-    json_array_foreach(bins, i, bin) sum += doc_number(bin, "count");
-    json_array_foreach(bins, i, bin)
-    {
+    json_array_foreach (bins, i, bin)
+        sum += doc_number(bin, "count");
+    json_array_foreach (bins, i, bin) {
         const f64 count = doc_number(bin, "count"), end = doc_number(bin, "ulp");
         char label[32] = "more";
         if (isfinite(end))
@@ -82,8 +83,7 @@ bool plots_overall_ulp(const Session *session, json_t *report, Error *error)
         lines, COLUMNS);
     size_t i;
     json_t *shape;
-    json_array_foreach(shapes, i, shape)
-    {
+    json_array_foreach (shapes, i, shape) {
         put_shape(plot.data, shape);
         fputs("set title ", plot.script);
         plot_put_name(plot.script, doc_text(shape, "name"));

@@ -123,8 +123,9 @@ static void spread_self_test(json_t *report)
     const f64 failed = doc_number(report, "self_test.failed");
     size_t i;
     json_t *row;
-    json_array_foreach(json_object_get(report, "rows"), i, row) if (failed >= 0)
-        doc_set(row, "health.self_test", json_string(failed > 0 ? "failed" : "passed"));
+    json_array_foreach (json_object_get(report, "rows"), i, row)
+        if (failed >= 0)
+            doc_set(row, "health.self_test", json_string(failed > 0 ? "failed" : "passed"));
 }
 
 static bool write_all(const Session *session, json_t *report, Error *error)

@@ -151,7 +151,8 @@ f64 row_rays(const json_t *stats)
     const char *key;
     json_t *count;
     f64 sum = 0;
-    json_object_foreach(json_object_get(stats, "rays"), key, count) sum += json_number_value(count);
+    json_object_foreach (json_object_get(stats, "rays"), key, count)
+        sum += json_number_value(count);
     return sum;
 }
 

@@ -52,22 +52,31 @@ static void print_row(const json_t *row, FILE *stream)
     fputc('\n', stream);
 }
 
+// A number in a column, a dash where there is none.
+static void print_number(f64 value, int width, FILE *stream)
+{
+    if (isfinite(value))
+        fprintf(stream, " %*.2f", width, value);
+    else
+        fprintf(stream, " %*s", width, "-");
+}
+
 static void print_features(const json_t *features, FILE *stream)
 {
     size_t i;
     json_t *one;
-    fprintf(stream, "\n%-16s %8s %10s %7s   declared but unused: %10s %7s %s\n", "feature", "ns/ray",
-            "added ns", "+-", "added ns", "+-", "same program");
-    json_array_foreach(features, i, one)
-    {
-        const char *same = json_is_boolean(doc_at(one, "unused.same_kernels"))
-                               ? json_is_true(doc_at(one, "unused.same_kernels")) ? "yes" : "NO"
-                               : "-";
-        fprintf(stream, "%-16s %8.2f %10.2f %7.2f   %21s %10.2f %7.2f %s\n", doc_text(one, "feature"),
-                doc_number(one, "used.ns_per_ray.median"), doc_number(one, "used.added_ns_per_ray.median"),
-                doc_number(one, "used.added_ns_per_ray.mad"), "",
-                doc_number(one, "unused.added_ns_per_ray.median"),
-                doc_number(one, "unused.added_ns_per_ray.mad"), same);
+    fprintf(stream, "\n%-14s %8s %9s %7s   %20s %7s  %s\n", "feature", "ns/ray", "added ns", "+-",
+            "unused: added ns", "+-", "same program");
+    json_array_foreach (features, i, one) {
+        const json_t *same = doc_at(one, "unused.same_kernels");
+        fprintf(stream, "%-14s", doc_text(one, "feature"));
+        print_number(doc_number(one, "used.ns_per_ray.median"), 8, stream);
+        print_number(doc_number(one, "used.added_ns_per_ray.median"), 9, stream);
+        print_number(doc_number(one, "used.added_ns_per_ray.mad"), 7, stream);
+        fputs("  ", stream);
+        print_number(doc_number(one, "unused.added_ns_per_ray.median"), 20, stream);
+        print_number(doc_number(one, "unused.added_ns_per_ray.mad"), 7, stream);
+        fprintf(stream, "  %s\n", !json_is_boolean(same) ? "-" : json_is_true(same) ? "yes" : "NO");
     }
 }
 
@@ -82,7 +91,8 @@ void table_print(const json_t *report, FILE *stream)
             fprintf(stream, " %*s", COLUMNS[i].width, COLUMNS[i].head);
         fputc('\n', stream);
     }
-    json_array_foreach(rows, i, row) print_row(row, stream);
+    json_array_foreach (rows, i, row)
+        print_row(row, stream);
     if (json_array_size(features) > 0)
         print_features(features, stream);
 }

@@ -12,8 +12,9 @@ static bool is_histogram(const json_t *histogram)
 {
     size_t i;
     json_t *bin;
-    json_array_foreach(histogram, i, bin) if (!is_number_or_null(json_object_get(bin, "ulp")) ||
-                                              !json_is_number(json_object_get(bin, "count"))) return false;
+    json_array_foreach (histogram, i, bin)
+        if (!is_number_or_null(json_object_get(bin, "ulp")) || !json_is_number(json_object_get(bin, "count")))
+            return false;
     return json_is_array(histogram);
 }
 
@@ -35,8 +36,9 @@ json_t *ulp_read(const char *path, Error *error)
     bool ok = json_is_array(shapes) || error_set(error, ERROR_IO, "%s: has no array \"shapes\"", path);
     size_t i;
     json_t *shape;
-    json_array_foreach(shapes, i, shape) if (ok && !is_shape(shape)) ok =
-        error_set(error, ERROR_IO, "%s: shape %zu is not as clrt-report reads it", path, i + 1);
+    json_array_foreach (shapes, i, shape)
+        if (ok && !is_shape(shape))
+            ok = error_set(error, ERROR_IO, "%s: shape %zu is not as clrt-report reads it", path, i + 1);
     if (ok)
         return document;
     json_decref(document);

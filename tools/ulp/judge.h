@@ -15,8 +15,9 @@ typedef struct Judgement {
     f64 ulps;     // of a hit: |t - exact| in units in the last place of a float near exact
     f64 change;   // of a hit: of t by one ulp of the inputs, in ulp, to first order
     f64 relative; // of a hit: |t - exact| / exact
-    f64 over;     // the error over the larger of ALLOWED_ULPS and what one ulp of the inputs changes; of verdicts
-                  // and of hits at silhouettes the first power of two that is enough
+    // The error over the larger of ALLOWED_ULPS and what one ulp of the inputs changes; of verdicts and of hits at
+    // silhouettes the first power of two, from a quarter, that is enough.
+    f64 over;
 } Judgement;
 
 // t of the device for the ray (origin, direction) at the shape; INFINITY: no hit.

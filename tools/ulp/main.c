@@ -1,4 +1,4 @@
-// clrt-ulp: how far the distances of hits are off, shape by shape, in ulp and in what one ulp of the inputs makes.
+// clrt-ulp: how far the distances of hits are off, shape by shape, in ulp and in what an ulp of the inputs makes.
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

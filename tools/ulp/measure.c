@@ -124,7 +124,8 @@ static bool measure_batches(Probe *probe, const Subject *subject, const Batch *b
 bool measure_subject(Probe *probe, const Subject *subject, u64 rays, Tally *tally, Error *error)
 {
     Arena *arena = arena_create();
-    Batch batch = {.shapes = subject->mesh ? 1 : SHAPES_BATCH, .rays = subject->mesh ? RAYS_MESH : RAYS_SHAPE};
+    Batch batch = {.shapes = subject->mesh ? 1 : SHAPES_BATCH,
+                   .rays = subject->mesh ? RAYS_MESH : RAYS_SHAPE};
     *tally = (Tally){0};
     if (arena) {
         batch.placed = arena_alloc(arena, batch.shapes, sizeof *batch.placed);

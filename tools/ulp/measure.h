@@ -16,7 +16,7 @@ enum { SUBJECT_COUNT = FAMILY_COUNT + 1 };
 // Number k < SUBJECT_COUNT of what is measured.
 Subject subject_at(u32 k);
 
-// At least `rays` rays, rounded up to whole batches of them. The same rays whatever the device and the threads.
+// At least `rays` rays, rounded up to whole batches of them: the same ones whatever the device and the threads.
 // Fails with ERROR_DEVICE or ERROR_MEMORY.
 bool measure_subject(Probe *probe, const Subject *subject, u64 rays, Tally *tally, Error *error);
 

@@ -5,7 +5,8 @@
 #include "layout/layout.h"
 #include "reference/placed.h"
 
-// The layout of a scene of the triangle alone. NULL with ERROR_MEMORY or ERROR_SCENE; the caller's to destroy.
+// The layout of a scene of the triangle alone. NULL with ERROR_MEMORY or ERROR_SCENE; the caller's to
+// destroy.
 Layout *mesh_layout(const Placed *triangle, Error *error);
 
 #endif

@@ -20,7 +20,8 @@ void ulp_report_histogram(const UlpResult *results, u32 count);
 bool ulp_report_json(const UlpResult *results, u32 count, const DeviceInfo *device, const char *path,
                      Error *error);
 
-// False with ERROR_SELF_TEST, and a text that names the shapes, where a hit or a verdict is beyond what is allowed.
+// False with ERROR_SELF_TEST, and a text that names the shapes, where a hit or a verdict is beyond what is
+// allowed.
 bool ulp_verdict(const UlpResult *results, u32 count, Error *error);
 
 #endif

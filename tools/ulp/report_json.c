@@ -58,8 +58,8 @@ bool ulp_report_json(const UlpResult *results, u32 count, const DeviceInfo *devi
     if (whole)
         document = json_pack("{s:s, s:s, s:o, s:o, s:o, s:s, s:o}", "schema", "clrt-ulp/1", "version",
                              CLRT_VERSION, "device", text_of(device->name), "platform",
-                             text_of(device->platform_name), "driver", text_of(device->driver), "math", "exact",
-                             "shapes", shapes);
+                             text_of(device->platform_name), "driver", text_of(device->driver), "math",
+                             "exact", "shapes", shapes);
     else
         json_decref(shapes);
     return json_file_write(document, path, "the report", error);

@@ -32,8 +32,8 @@ typedef struct Tally {
 void tally_add(Tally *tally, const Judgement *judgement);
 void tally_merge(Tally *tally, const Tally *other);
 
-// The ulps that the share (0 to 1) of the hits stays within, to 5 percent of itself, at most max_ulps; 0 without
-// hits.
+// The ulps that the share (0 to 1) of the hits stays within, to 5 percent of itself, at most max_ulps; 0
+// without hits.
 f64 spread_percentile(const Spread *spread, f64 share);
 
 // The upper end of a bin of the report.
