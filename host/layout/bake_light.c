@@ -11,7 +11,8 @@ static bool bake_rectangle(const Light *light, const Affine *to_space, Primitive
     const Vec3 b = affine_direction(*to_space, vec_scale(light->edge2, 0.5));
     const Vec3 corner = affine_point(*to_space, light->position), c = vec_add(corner, vec_add(a, b));
     const Vec3 n = vec_normalize(vec_cross(vec_normalize(a), vec_normalize(b)));
-    const Affine map = { .row = { { a.x, b.x, n.x }, { a.y, b.y, n.y }, { a.z, b.z, n.z } }, .translation = c };
+    const Affine map = { .row = { { a.x, b.x, n.x }, { a.y, b.y, n.y }, { a.z, b.z, n.z } },
+                         .translation = c };
     const Affine inverse = affine_inverse(map);
     const Vec3 extent = { fabs(a.x) + fabs(b.x), fabs(a.y) + fabs(b.y), fabs(a.z) + fabs(b.z) };
     const f64 size = vec_length(c) + 4 * vec_length(extent);

@@ -71,7 +71,8 @@ static bool add_tables(Layout *layout, Error *error)
     layout->environment_cdf_count = rows + (u64)rows * width;
     layout->environment_edge_count = height + 2;
     layout->environment_cdf = page_alloc(layout->environment_cdf_count * sizeof *layout->environment_cdf);
-    layout->environment_edges = page_alloc(layout->environment_edge_count * sizeof *layout->environment_edges);
+    layout->environment_edges =
+        page_alloc(layout->environment_edge_count * sizeof *layout->environment_edges);
     f64 *sums = calloc(rows, sizeof *sums), *weights = calloc(rows, sizeof *weights);
     bool enough = layout->environment_cdf && layout->environment_edges && sums && weights;
 #pragma omp parallel if (enough)
@@ -107,7 +108,8 @@ static bool add_tables(Layout *layout, Error *error)
 static bool add_levels(Layout *layout, Error *error)
 {
     layout->environment_level_count = prefilter_plan(layout->environment);
-    layout->environment_levels = page_alloc(layout->environment_level_count * sizeof *layout->environment_levels);
+    layout->environment_levels =
+        page_alloc(layout->environment_level_count * sizeof *layout->environment_levels);
     return (layout->environment_levels &&
             prefilter_run(layout->environment, layout->environment_texels, layout->environment_levels)) ||
            error_set(error, ERROR_MEMORY, "no memory for the prefiltered environment");
@@ -133,9 +135,11 @@ bool environment_add(Layout *layout, const Scene *scene, bool lit, Error *error)
     layout->environment_texel_count = count;
     layout->environment_texels = page_alloc(count * sizeof *layout->environment_texels);
     if (!layout->environment || !layout->environment_texels)
-        return error_set(error, ERROR_MEMORY, "no memory for the environment of %u x %u texels", width, height);
+        return error_set(error, ERROR_MEMORY, "no memory for the environment of %u x %u texels", width,
+                         height);
     EnvironmentRecord *record = layout->environment;
-    const f64 turn = 0.5 + environment->rotate / 360, largest = fill_texels(environment, layout->environment_texels);
+    const f64 turn = 0.5 + environment->rotate / 360,
+              largest = fill_texels(environment, layout->environment_texels);
     record->width = width;
     record->height = height;
     record->turn = (f32)(turn - floor(turn));

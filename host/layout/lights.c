@@ -170,9 +170,16 @@ void lights_finish(Layout *layout)
 
 MaterialRecord light_material(const Light *light)
 {
-    const Material black = { .kind = MATERIAL_PHONG, .ior = 1, .shininess = 1, .emission = { light->intensity, -1 },
-                             .ambient.texture = -1, .diffuse.texture = -1, .base_color.texture = -1,
-                             .metallic.texture = -1, .roughness.texture = -1, .occlusion.texture = -1,
+    const Material black = { .kind = MATERIAL_PHONG,
+                             .ior = 1,
+                             .shininess = 1,
+                             .emission = { light->intensity, -1 },
+                             .ambient.texture = -1,
+                             .diffuse.texture = -1,
+                             .base_color.texture = -1,
+                             .metallic.texture = -1,
+                             .roughness.texture = -1,
+                             .occlusion.texture = -1,
                              .normal_map = -1 };
     MaterialRecord record = material_record(&black, (Vec3){ 0, 0, 0 });
     record.flags |= MATERIAL_ONE_SIDED;

@@ -25,7 +25,7 @@ u64 prefilter_plan(EnvironmentRecord *record)
     return (u64)count + 3 * PREFILTER_TABLE * PREFILTER_TABLE;
 }
 
-// ---- resampling ---------------------------------------------------------------------------------------------
+// ---- resampling -------------------------------------------------------------------------------------------
 
 // Points in each texel of the base along a side of `count` texels: at least two a texel of the source.
 static u32 points_for(u32 count, u32 base)
@@ -40,7 +40,8 @@ static void narrow_row(const f32 *row, u32 width, f64 *out)
     for (u32 t = 0; t < BASE_WIDTH; t++) {
         f64 sum[3] = { 0, 0, 0 };
         for (u32 k = 0; k < points; k++) {
-            const f64 x = (t + (k + 0.5) / points) / BASE_WIDTH * width - 0.5, left = floor(x), share = x - left;
+            const f64 x = (t + (k + 0.5) / points) / BASE_WIDTH * width - 0.5, left = floor(x),
+                      share = x - left;
             const u32 a = left < 0 ? width - 1 : (u32)left, b = a + 1 < width ? a + 1 : 0;
             for (int c = 0; c < 3; c++)
                 sum[c] += (1 - share) * (f64)row[3 * (u64)a + (u64)c] + share * (f64)row[3 * (u64)b + (u64)c];
@@ -50,7 +51,8 @@ static void narrow_row(const f32 *row, u32 width, f64 *out)
     }
 }
 
-// narrow: all rows of the source, BASE_WIDTH colours each. Points of a texel count by the sine of their angle.
+// narrow: all rows of the source, BASE_WIDTH colours each. Points of a texel count by the sine of their
+// angle.
 static void shorten(const f64 *narrow, u32 height, Base *base)
 {
     const u32 points = points_for(height, BASE_HEIGHT);
@@ -84,10 +86,10 @@ static bool make_base(const EnvironmentRecord *record, const f32 *texels, Base *
     return true;
 }
 
-// ---- blurring -----------------------------------------------------------------------------------------------
+// ---- blurring ---------------------------------------------------------------------------------------------
 
-// Weight of light at the angle with this cosine to the direction that a map is asked for: of a lobe of width a seen
-// along its normal, D(H) N.L; of diffuse reflection (a = 0) N.L.
+// Weight of light at the angle with this cosine to the direction that a map is asked for: of a lobe of width
+// a seen along its normal, D(H) N.L; of diffuse reflection (a = 0) N.L.
 static f64 kernel_weight(f64 a, f64 cosine)
 {
     if (!(cosine > 0))
@@ -130,7 +132,7 @@ static void blur_row(const Base *base, f64 a, f64 angle, u32 step, f32 *out)
     }
 }
 
-// ---- reflectance --------------------------------------------------------------------------------------------
+// ---- reflectance ------------------------------------------------------------------------------------------
 
 typedef struct Direction {
     f64 x, y, z;
@@ -141,8 +143,8 @@ static f64 masking(f64 a2, f64 cosine) // Smith's G1
     return 2 * cosine / (cosine + sqrt(a2 + (1 - a2) * cosine * cosine));
 }
 
-// Visible normal of a lobe for an eye at (sine, 0, cosine): Dupuy and Benyoub, "Sampling Visible GGX Normals with
-// Spherical Caps", 2023.
+// Visible normal of a lobe for an eye at (sine, 0, cosine): Dupuy and Benyoub, "Sampling Visible GGX Normals
+// with Spherical Caps", 2023.
 static Direction visible_normal(f64 a, f64 sine, f64 cosine, f64 u, f64 v)
 {
     const f64 length = sqrt(a * a * sine * sine + cosine * cosine), z = 1 - u * (1 + cosine / length);
@@ -174,7 +176,8 @@ static void reflectance(f64 cosine, f64 roughness, f32 out[3])
         if (nl > 0 && vh > 0) {
             const f64 vis = 0.5 / (nl * sqrt(a2 + (1 - a2) * cosine * cosine) +
                                    cosine * sqrt(a2 + (1 - a2) * nl * nl));
-            const f64 weight = share * 4 * vis * nl * cosine / masking(a2, cosine), rest = fifth_power(1 - vh);
+            const f64 weight = share * 4 * vis * nl * cosine / masking(a2, cosine),
+                      rest = fifth_power(1 - vh);
             factor += weight * (1 - rest);
             summand += weight * rest;
         }

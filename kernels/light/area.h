@@ -7,8 +7,8 @@
 #include "light/punctual.h"
 
 #if HAS_SPHERE_LIGHT
-// Uniform in the solid angle of the sphere. With q = 1 - cos of half the angle that it fills, the cosine is
-// 1 - v with v uniform in [0, q): neither a small sphere far away nor the surface next to a large one cancels,
+// Uniform in the solid angle of the sphere. With q = 1 - cos of half the angle that it fills, the cosine is 1
+// - v with v uniform in [0, q): neither a small sphere far away nor the surface next to a large one cancels,
 // because q comes from (r / d)^2 and the distance of the surface from d - r.
 OUTLINE LightSample sphere_light_sample(global const LightRecord *light, v3 point, SamplePoint u)
 {
@@ -44,7 +44,8 @@ OUTLINE LightSample rectangle_light_sample(global const LightRecord *light, v3 p
     const v3 edge1 = v3_from(light->direction), edge2 = v3_from(light->edge), normal = v3_from(light->normal);
     const v3 to_corner = v3_sub(v3_make((vf)(corner.x), (vf)(corner.y), (vf)(corner.z)), point);
     const v3 to = v3_fma(edge2, u.y, v3_fma(edge1, u.x, to_corner));
-    const vf height = fma(normal.z, point.z, fma(normal.y, point.y, fma(normal.x, point.x, (vf)(-light->normal.w))));
+    const vf height =
+        fma(normal.z, point.z, fma(normal.y, point.y, fma(normal.x, point.x, (vf)(-light->normal.w))));
     const vf distance = sqrt(v3_dot(to, to));
     const vm before = (height > (vf)(0.0f)) & (distance > (vf)(0.0f));
     const vf inverse = (vf)(1.0f) / (before ? distance : (vf)(1.0f));

@@ -12,8 +12,10 @@ typedef struct {
     global const EnvironmentRecord *record;
     global const f32 *map; // 3 numbers a texel, the top row first
 #if HAS_ENVIRONMENT_LIGHT
-    global const uint *cdf;  // of rows of cells, then for each of its columns: probability of what is before, 2^32 = 1
-    global const f32 *edges; // half of 1 - cosine of the polar angle where rows of cells begin, and of the last's end
+    // Probability of what is before (2^32 is 1): of each row of cells, then for each row of its columns.
+    global const uint *cdf;
+    // Half of 1 - cosine of the polar angle where rows of cells begin, and where the last ends.
+    global const f32 *edges;
 #endif
 #if HAS_PREFILTERED
     global const f32 *levels;
@@ -33,9 +35,13 @@ static inline v3 v3_gather(global const f32 *p, vi index)
 
 static inline v3 v3_lerp(v3 a, v3 b, vf t) { return v3_fma(v3_sub(b, a), t, a); }
 
-// Share of a turn about the vertical axis, 0 in the middle of an unturned map; and angle from the top over pi.
+// Share of a turn about the vertical axis, 0 in the middle of an unturned map; and fall: angle
+// from the top over pi.
 static inline vf direction_turn(v3 dir) { return vf_atan2(dir.x, -dir.z) / TWO_PI; }
-static inline vf direction_fall(v3 dir) { return vf_atan2(sqrt(fma(dir.x, dir.x, dir.z * dir.z)), dir.y) / PI; }
+static inline vf direction_fall(v3 dir)
+{
+    return vf_atan2(sqrt(fma(dir.x, dir.x, dir.z * dir.z)), dir.y) / PI;
+}
 
 // u in turns, y in rows from the centre of the first; width, height: of the map, in every lane.
 static inline MapPlace map_place(vf u, vf y, vf width, vf height)
@@ -55,12 +61,14 @@ static inline MapPlace map_place(vf u, vf y, vf width, vf height)
 typedef struct { v3 corner[4]; } MapCell;
 
 // Of the map whose numbers begin at `offset`.
-static inline MapCell map_cell(global const f32 *numbers, vi offset, const MapPlace *place, vi width, vi height)
+static inline MapCell map_cell(global const f32 *numbers, vi offset, const MapPlace *place, vi width,
+                               vi height)
 {
     MapCell cell;
     const vi column = place->column, row = place->row;
     const vi next = column + 1 < width ? column + 1 : (vi)(0);
-    const vi above = (row > (vi)(0) ? row - 1 : row) * width, below = (row < height ? row : height - 1) * width;
+    const vi above = (row > (vi)(0) ? row - 1 : row) * width,
+             below = (row < height ? row : height - 1) * width;
     cell.corner[0] = v3_gather(numbers, offset + 3 * (above + column));
     cell.corner[1] = v3_gather(numbers, offset + 3 * (above + next));
     cell.corner[2] = v3_gather(numbers, offset + 3 * (below + column));
@@ -77,7 +85,8 @@ static inline v3 cell_radiance(const MapCell *cell, vf right, vf below)
 static inline MapPlace environment_place(global const EnvironmentRecord *record, v3 dir)
 {
     const vf width = (vf)((real)record->width), height = (vf)((real)record->height);
-    return map_place(direction_turn(dir) + record->turn, fma(direction_fall(dir), height, (vf)(-0.5f)), width, height);
+    return map_place(direction_turn(dir) + record->turn, fma(direction_fall(dir), height, (vf)(-0.5f)), width,
+                     height);
 }
 
 static inline MapCell environment_cell(const Environment *environment, const MapPlace *place)
@@ -106,8 +115,8 @@ static inline vf cell_strength(const Environment *environment, const MapCell *ce
     return fma(c.z, scale, fma(c.y, scale, c.x * scale));
 }
 
-// Half of 1 - cos and of 1 + cos of the polar angle where rows of cells begin: neither loses the digits that it
-// has near its own pole.
+// Half of 1 - cos and of 1 + cos of the polar angle where rows of cells begin: neither loses the digits that
+// it has near its own pole.
 static inline vf edge_from_top(const Environment *environment, vi row)
 {
     return vf_gather(environment->edges, row);
@@ -154,7 +163,8 @@ OUTLINE Drawn draw_index(global const uint *table, vi first, uint count, vu numb
     for (step /= 2; step > 0; step /= 2) {
         const vi middle = low + (int)step;
         const vm within = middle < (vi)((int)count);
-        const vu value = VU_FROM_VI(vi_gather((global const int *)table, first + (within ? middle : (vi)(0))));
+        const vu value =
+            VU_FROM_VI(vi_gather((global const int *)table, first + (within ? middle : (vi)(0))));
         const vm reached = within & (number >= value);
         low = reached ? middle : low;
     }
@@ -182,13 +192,15 @@ OUTLINE EnvironmentSample environment_sample(const Environment *environment, Sam
     global const EnvironmentRecord *record = environment->record;
     const int width = (int)record->width, height = (int)record->height;
     const Drawn row = draw_index(environment->cdf, (vi)(0), record->height + 1, bits.y);
-    const Drawn column = draw_index(environment->cdf, row.index * width + (height + 1), record->width, bits.x);
+    const Drawn column =
+        draw_index(environment->cdf, row.index * width + (height + 1), record->width, bits.x);
     MapPlace place;
     place.column = column.index;
     place.row = row.index;
     const MapCell cell = environment_cell(environment, &place);
     const vf left = cell_strength(environment, &cell, 0), right = cell_strength(environment, &cell, 1);
-    const vf left_end = cell_strength(environment, &cell, 2), right_end = cell_strength(environment, &cell, 3);
+    const vf left_end = cell_strength(environment, &cell, 2),
+             right_end = cell_strength(environment, &cell, 3);
     const vf below = draw_linear(row.rest, left + right, left_end + right_end);
     const vf at_left = fma(left_end - left, below, left), at_right = fma(right_end - right, below, right);
     const vf beside = draw_linear(column.rest, at_left, at_right);
@@ -225,12 +237,14 @@ OUTLINE v3 prefiltered_irradiance(const Environment *environment, v3 n)
                            direction_fall(n));
 }
 
-// Mean radiance about dir for a lobe of this roughness. Below the narrowest map, on the way to the map itself.
+// Mean radiance about dir for a lobe of this roughness. Below the narrowest map, on the way to the map
+// itself.
 OUTLINE v3 prefiltered_radiance(const Environment *environment, v3 dir, vf roughness)
 {
     const vf turn = direction_turn(dir) + environment->record->turn, fall = direction_fall(dir);
     const vf width = vf_log2(vf_max(roughness * roughness, (vf)(0x1p-12f))); // -12 .. 0
-    const vf level = width + (PREFILTER_LOBES - 1.0f), whole = vf_clamp(floor(level), 0.0f, PREFILTER_LOBES - 2.0f);
+    const vf level = width + (PREFILTER_LOBES - 1.0f),
+             whole = vf_clamp(floor(level), 0.0f, PREFILTER_LOBES - 2.0f);
     const vi map = VI_FROM_VF(whole);
     const v3 narrow = prefiltered_map(environment, map, turn, fall);
     const v3 wide = prefiltered_map(environment, map + 1, turn, fall);
@@ -246,8 +260,10 @@ OUTLINE v3 prefiltered_reflectance(const Environment *environment, vf cosine, vf
 {
     const vf x = vf_clamp(cosine, 0.0f, 1.0f) * (PREFILTER_TABLE - 1.0f);
     const vf y = vf_clamp(roughness, 0.0f, 1.0f) * (PREFILTER_TABLE - 1.0f);
-    const vf left = vf_min(floor(x), (vf)(PREFILTER_TABLE - 2.0f)), above = vf_min(floor(y), (vf)(PREFILTER_TABLE - 2.0f));
-    const vi first = (int)environment->record->table + 3 * (VI_FROM_VF(above) * PREFILTER_TABLE + VI_FROM_VF(left));
+    const vf left = vf_min(floor(x), (vf)(PREFILTER_TABLE - 2.0f)),
+             above = vf_min(floor(y), (vf)(PREFILTER_TABLE - 2.0f));
+    const vi first =
+        (int)environment->record->table + 3 * (VI_FROM_VF(above) * PREFILTER_TABLE + VI_FROM_VF(left));
     MapCell cell;
     for (int k = 0; k < 4; k++)
         cell.corner[k] = v3_gather(environment->levels, first + 3 * ((k & 1) + (k >> 1) * PREFILTER_TABLE));

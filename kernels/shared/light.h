@@ -15,7 +15,7 @@
 
 typedef struct LightRecord {
     f32x4 position;    // point, spot; sphere: centre; rectangle: corner; w: 0 where no shadow rays are traced
-    f32x4 direction;   // unit vector of travel: directional; spot: from its position to look_at; rectangle: edge1
+    f32x4 direction;   // unit vector of travel: directional, and spot: towards look_at; rectangle: edge1
     f32x4 intensity;   // rgb; sphere, rectangle: radiance; all that have samples: over their number
     f32x4 edge;        // rectangle: edge2
     f32x4 normal;      // rectangle: unit normal of the side that shines; w: normal.p on it

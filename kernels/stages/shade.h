@@ -163,12 +163,13 @@ static inline LightRay occlusion_ray(const Hit *hit, v3 ambient, global const Li
 #if HAS_ENVIRONMENT_LIGHT
 // One direction, from the map or from the material, each half of the time: so its density is the mean of both
 // (the balance heuristic of Veach and Guibas, "Optimally Combining Sampling Techniques", 1995).
-static inline LightRay environment_ray(const Hit *hit, const Environment *environment, global const LightRecord *light)
+static inline LightRay environment_ray(const Hit *hit, const Environment *environment,
+                                       global const LightRecord *light)
 {
     LightRay ray;
     const v3 to_eye = v3_neg(hit->dir);
-    // One coordinate of the point makes both choices and then, stretched, what is drawn: each choice has points that
-    // are spread as well as all are.
+    // One coordinate of the point makes both choices and then, stretched, what is drawn: each choice has
+    // points that are spread as well as all are.
     SampleBits bits = hit_random_bits(&hit->random, light);
     const vm by_map = VI_FROM_VU(bits.x) >= (vi)(0);
     bits.x = bits.x << 1;
@@ -176,7 +177,8 @@ static inline LightRay environment_ray(const Hit *hit, const Environment *enviro
     const SamplePoint point = sample_point(bits);
     const vf share = pbr_lobe_share(&hit->pbr, hit->ns, to_eye);
     const vf u = point.x < share ? point.x / share : (point.x - share) / (1.0f - share);
-    const v3 scattered = pbr_sample(&hit->pbr, hit->ns, to_eye, vf_clamp(u, 0.0f, 1.0f - ROUNDING), point.y, point.x);
+    const v3 scattered =
+        pbr_sample(&hit->pbr, hit->ns, to_eye, vf_clamp(u, 0.0f, 1.0f - ROUNDING), point.y, point.x);
     const EnvironmentSample seen = environment_look(environment, scattered);
     ray.dir = v3_select(by_map, drawn.dir, scattered);
     ray.length = (vf)(INFINITY);

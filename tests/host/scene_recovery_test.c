@@ -150,7 +150,7 @@ static void test_support_comes_last(void **state)
 {
     (void)state;
     expect_error("mesh { file \"a.obj\" }\nsphere { radius 1 }", "2:1: sphere lacks 'center'");
-    expect_error("image { samples 2 filter tent }", "1:19: filters other than box are not supported yet");
+    expect_error("render { integrator path }", "1:10: 'integrator path' is not supported yet");
 }
 
 static void test_locale(void **state)

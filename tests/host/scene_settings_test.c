@@ -74,7 +74,10 @@ static void test_camera(void **state)
     p = parse_good("camera { aperture 0 focus_distance 7 }");
     assert_true(p.scene->camera.focus_distance == 7);
     parsed_end(&p);
-    expect_error("camera { aperture 0.1 }", "1:10: 'aperture' is not supported yet");
+    p = parse_good("camera { position 0 0 5 aperture 0.1 }");
+    assert_true(p.scene->camera.aperture == 0.1 && p.scene->camera.focus_distance == 6);
+    parsed_end(&p);
+    expect_error("camera { aperture -1 }", "1:19: 'aperture' must be 0 or more");
 }
 
 static void test_camera_orthographic(void **state)
@@ -117,7 +120,10 @@ static void test_render(void **state)
     expect_error("render { max_depth 65 }", "1:20: 'max_depth' must be from 0 to 64");
     expect_error("render { min_weight -0.1 }", "1:21: 'min_weight' must be 0 or more");
     expect_error("render { ambient_occlusion 4 -1 }", "1:30: 'ambient_occlusion' must be above 0");
-    expect_error("render { ambient_occlusion 4 2 }", "1:10: 'ambient_occlusion' is not supported yet");
+    p = parse_good("render { ambient_occlusion 4 2 }");
+    assert_int_equal(p.scene->render.ambient_occlusion_samples, 4);
+    assert_true(p.scene->render.ambient_occlusion_distance == 2);
+    parsed_end(&p);
     expect_error("render { integrator path }", "1:10: 'integrator path' is not supported yet");
 }
 
@@ -171,8 +177,6 @@ static void test_colors(void **state)
 static void test_environment(void **state)
 {
     (void)state;
-    expect_error("environment { file \"sky.hdr\" intensity 1 2 3 rotate -30 }",
-                 "1:1: 'environment' is not supported yet");
     expect_error("environment { intensity 1 }", "1:1: environment lacks 'file'");
     Parsed p = parse_bytes("environment { file \"sky.hdr\" rotate -30 }", 41);
     assert_true(p.scene->environment.present);

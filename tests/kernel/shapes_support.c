@@ -116,6 +116,7 @@ static const struct {
     {"HAS_CONE", PRIMITIVE_CONE},
     {"HAS_TORUS", PRIMITIVE_TORUS},
     {"HAS_TRIANGLE", PRIMITIVE_TRIANGLE},
+    {"HAS_RECTANGLE", PRIMITIVE_RECTANGLE},
 };
 
 bool shapes_long_run(void)

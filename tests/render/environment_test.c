@@ -65,7 +65,8 @@ static f64 map_radiance(const Map *map, f64 rotate, Vec3 d)
     const f64 x = (turn - floor(turn)) * map->width - 0.5, y = v * map->height - 0.5;
     const f64 left = floor(x), above = floor(y), fx = x - left, fy = y - above;
     const u32 a = ((u32)left + map->width) % map->width, b = (a + 1) % map->width;
-    const u32 top = above < 0 ? 0 : (u32)above, bottom = above + 1 < map->height ? (u32)(above + 1) : map->height - 1;
+    const u32 top = above < 0 ? 0 : (u32)above,
+              bottom = above + 1 < map->height ? (u32)(above + 1) : map->height - 1;
     return (1 - fy) * ((1 - fx) * map->texel[top][a] + fx * map->texel[top][b]) +
            fy * ((1 - fx) * map->texel[bottom][a] + fx * map->texel[bottom][b]);
 }
@@ -82,13 +83,14 @@ static f64 reflected(const Surface *s, Vec3 to_eye, Vec3 to_light)
         return 0;
     const Vec3 h = vec_normalize(vec_add(to_eye, to_light));
     const f64 a2 = pow(s->roughness, 4), f0 = 0.04 + (s->base - 0.04) * s->metallic;
-    const f64 f = f0 + (1 - f0) * pow(1 - vec_dot(to_eye, h), 5), d = a2 / (pi * pow(h.y * h.y * (a2 - 1) + 1, 2));
+    const f64 f = f0 + (1 - f0) * pow(1 - vec_dot(to_eye, h), 5),
+              d = a2 / (pi * pow(h.y * h.y * (a2 - 1) + 1, 2));
     const f64 vis = 0.5 / (nl * sqrt(a2 + (1 - a2) * nv * nv) + nv * sqrt(a2 + (1 - a2) * nl * nl));
     return nl * ((1 - f) * (1 - s->metallic) * s->base / pi + (s->roughness >= 0.02 ? f * d * vis : 0));
 }
 
-// Their integral over all directions, at points that lie evenly in each texel: what is linear between the centres
-// of texels is summed without error.
+// Their integral over all directions, at points that lie evenly in each texel: what is linear between the
+// centres of texels is summed without error.
 static f64 expected_radiance(const Map *map, f64 rotate, const Surface *surface, Vec3 to_eye)
 {
     const u32 rows = 320, columns = 640; // multiples of the map's
@@ -104,22 +106,24 @@ static f64 expected_radiance(const Map *map, f64 rotate, const Surface *surface,
     return sum;
 }
 
-static Picture render_surface(Device *device, const char *settings, f64 rotate, const Surface *surface, Vec3 to_eye,
-                              u32 samples, u32 seed)
+static Picture render_surface(Device *device, const char *settings, f64 rotate, const Surface *surface,
+                              Vec3 to_eye, u32 samples, u32 seed)
 {
     char *text = text_of("image { size 32 32 samples %u seed %u }\nrender { max_depth 0 %s }\n"
                          "camera { position %.17g %.17g %.17g look_at 0 0 0 orthographic 1e-6 }\n"
                          "environment { file \"%s/environment_test.hdr\" rotate %.17g }\n"
                          "material m pbr { base_color %.17g metallic %.17g roughness %.17g }\n"
                          "plane { point 0 0 0 normal 0 1 0 material m }\n",
-                         samples, seed, settings, to_eye.x, to_eye.y, to_eye.z, folder(), rotate, surface->base,
-                         surface->metallic, surface->roughness);
+                         samples, seed, settings, to_eye.x, to_eye.y, to_eye.z, folder(), rotate,
+                         surface->base, surface->metallic, surface->roughness);
     Picture picture = render_text(device, text, NULL);
     free(text);
     return picture;
 }
 
-static const Surface surfaces[] = {{0.75, 0, 1}, {0.75, 0, 0.5}, {0.75, 1, 0.25}, {1, 1, 0.75}, {0.5, 0, 0.01}};
+static const Surface surfaces[] = {
+    { 0.75, 0, 1 }, { 0.75, 0, 0.5 }, { 0.75, 1, 0.25 }, { 1, 1, 0.75 }, { 0.5, 0, 0.01 }
+};
 enum { SURFACES = sizeof surfaces / sizeof *surfaces };
 
 static void expect_lit(Device *device, const Map *map, f64 rotate, const char *name)
@@ -132,7 +136,8 @@ static void expect_lit(Device *device, const Map *map, f64 rotate, const char *n
             Picture picture =
                 render_surface(device, k ? "environment_samples 3" : "", rotate, &surfaces[i], eyes[k], 64,
                                              (u32)(2 * i + k));
-            expect_estimate(estimate_of(&picture, 1), expected_radiance(map, rotate, &surfaces[i], eyes[k]), what);
+            expect_estimate(estimate_of(&picture, 1), expected_radiance(map, rotate, &surfaces[i], eyes[k]),
+                            what);
             picture_destroy(&picture);
             free(what);
         }
@@ -168,14 +173,16 @@ static void test_seen(void **state)
                              "environment { file \"%s/environment_test.hdr\" rotate %.17g intensity 0.5 }\n",
                              folder(), turns[i]);
         Picture picture = render_text(*state, text, NULL);
-        const Vec3 w = vec_normalize((Vec3){-0.3, -0.9, 0.2}), u = vec_normalize(vec_cross((Vec3){0, 1, 0}, w));
+        const Vec3 w = vec_normalize((Vec3){ -0.3, -0.9, 0.2 }),
+                   u = vec_normalize(vec_cross((Vec3){ 0, 1, 0 }, w));
         const Vec3 v = vec_cross(w, u);
         const f64 k = tan(60 * pi / 180);
         for (u32 y = 0; y < picture.height; y++) {
             for (u32 x = 0; x < picture.width; x++) {
                 const f64 px = (2 * (x + 0.5) / 40 - 1) * 40 / 30 * k, py = (1 - 2 * (y + 0.5) / 30) * k;
                 const Vec3 d = vec_normalize(vec_sub(vec_add(vec_scale(u, px), vec_scale(v, py)), w));
-                const f64 expected = 0.5 * map_radiance(&map, turns[i], d), found = (f64)pixel_at(&picture, x, y)[0];
+                const f64 expected = 0.5 * map_radiance(&map, turns[i], d),
+                          found = (f64)pixel_at(&picture, x, y)[0];
                 // A texel's place is off by what rounding makes of a turn.
                 if (!(fabs(found - expected) <= 3e-5 * expected + (expected > 8 ? 1.0 : 3e-5)))
                     fail_msg("rotate %g, pixel %u %u: %.9g is not %.9g", turns[i], x, y, found, expected);
@@ -193,7 +200,8 @@ static void test_prefiltered_constant(void **state)
     const Vec3 eye = vec_normalize((Vec3){0.2, 1, 0.3});
     write_map(&map, "environment_test.hdr");
     for (int i = 0; i < SURFACES; i++) {
-        Picture picture = render_surface(*state, "environment_lighting prefiltered", 0, &surfaces[i], eye, 4, 0);
+        Picture picture =
+            render_surface(*state, "environment_lighting prefiltered", 0, &surfaces[i], eye, 4, 0);
         const f64 found = (f64)picture.rgb[0], expected = expected_radiance(&map, 0, &surfaces[i], eye);
         print_message("prefiltered, surface %d: %.6f, exact %.6f\n", i, found, expected);
         assert_true(fabs(found - expected) <= 0.004 * expected);

@@ -69,7 +69,7 @@ static const struct {
     {FEATURE_ORTHOGRAPHIC, {"v3_scale(up, view_y)", NULL, NULL}},
     {FEATURE_PBR, {"hit_pbr", NULL, NULL}},
     {FEATURE_SAMPLES, {"sample_offset", "sum_add", NULL}},
-    {FEATURE_APERTURE, {"disk_point", "PAIR_LENS", NULL}},
+    {FEATURE_APERTURE, {"disk_point", NULL, NULL}},
     {FEATURE_FILTER_TENT, {"left ? u", NULL, NULL}},
     {FEATURE_FILTER_TABLE, {"centered", NULL, NULL}},
     {FEATURE_FILTER_LOBES, {"weigh_samples", "filter_sign", NULL}},

@@ -1,19 +1,19 @@
-// Area lights and ambient occlusion against closed forms. Each picture shows one point of a plane: its pixels are
-// independent estimates of what arrives there.
+// Area lights and ambient occlusion against closed forms. Each picture shows one point of a plane: its pixels
+// are independent estimates of what arrives there.
 #include "estimate.h"
 
 static const f64 pi = 3.14159265358979323846;
 
-// Of everything that the scenes have there is one that neither shines on what is looked at nor is seen, so that
-// they share a program.
+// Of everything that the scenes have there is one that neither shines on what is looked at nor is seen, so
+// that they share a program.
 #define ELSEWHERE                                                                                            \
     "light sphere { center 500 0 -50 radius 1 radiance 1 }\n"                                                \
     "light rectangle { corner 500 0 50 edge1 1 0 0 edge2 0 1 0 radiance 1 }\n"                               \
     "box { min 500 0 -60 max 501 1 -59 }\ntriangle { vertices 500 0 -70 501 0 -70 500 1 -70 }\n"             \
     "sphere { center 500 0 -80 radius 1 }\n"
 
-// The scene with a camera that sees nothing but the point (x, y) of the plane z = 0, from right above it, so that
-// lights and blockers are behind.
+// The scene with a camera that sees nothing but the point (x, y) of the plane z = 0, from right above it, so
+// that lights and blockers are behind.
 static Picture render_point(Device *device, f64 x, f64 y, u32 samples, u32 side, const char *scene)
 {
     char *text = text_of("image { size %u %u samples %u }\n"
@@ -74,8 +74,8 @@ static f64 polygon_irradiance(Polygon polygon, Vec3 p)
     return fabs(sum) / 2;
 }
 
-// Irradiance of a sphere of radiance 1 that fills the half-angle `half` about a direction at `tilt` from the normal:
-// ring after ring of directions, each cut off at the horizon.
+// Irradiance of a sphere of radiance 1 that fills the half-angle `half` about a direction at `tilt` from the
+// normal: ring after ring of directions, each cut off at the horizon.
 static f64 sphere_irradiance(f64 half, f64 tilt)
 {
     enum { RINGS = 20000 };
@@ -98,11 +98,14 @@ static void test_rectangle(void **state)
         f64 x, y;
         u32 lights; // samples of the light
     } cases[] = {
-        {{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, 0, 0, 1},       {{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, 3, -1, 4},
-        {{-1, -1, 0.1}, {0, 2, 0}, {2, 0, 0}, 0.3, 0.2, 4}, {{-1, -1, 0.1}, {0, 2, 0}, {2, 0, 0}, 1.5, 0.2, 1},
-        {{1, -1, -1}, {0.5, 0, 3}, {0, 2, 0}, 0, 0.5, 2},   {{1, -1, 0.25}, {1, 0.75, 1}, {0, 2, 0}, 0.5, 0, 1},
-        {{-500, -300, 4000}, {0, 700, 0}, {900, 50, 80}, 10, 20, 1},
-        {{-1, -1, 2}, {2, 0, 0}, {0, 2, 0}, 0, 0, 1}, // shines upward
+        { { -1, -1, 2 }, { 0, 2, 0 }, { 2, 0, 0 }, 0, 0, 1 },
+        { { -1, -1, 2 }, { 0, 2, 0 }, { 2, 0, 0 }, 3, -1, 4 },
+        { { -1, -1, 0.1 }, { 0, 2, 0 }, { 2, 0, 0 }, 0.3, 0.2, 4 },
+        { { -1, -1, 0.1 }, { 0, 2, 0 }, { 2, 0, 0 }, 1.5, 0.2, 1 },
+        { { 1, -1, -1 }, { 0.5, 0, 3 }, { 0, 2, 0 }, 0, 0.5, 2 },
+        { { 1, -1, 0.25 }, { 1, 0.75, 1 }, { 0, 2, 0 }, 0.5, 0, 1 },
+        { { -500, -300, 4000 }, { 0, 700, 0 }, { 900, 50, 80 }, 10, 20, 1 },
+        { { -1, -1, 2 }, { 2, 0, 0 }, { 0, 2, 0 }, 0, 0, 1 }, // shines upward
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const Vec3 a = cases[i].corner, b = cases[i].edge1, c = cases[i].edge2;
@@ -123,8 +126,9 @@ static void test_rectangle(void **state)
 static void test_sphere(void **state)
 {
     // Place, height and radius: beside, below the horizon, next to the surface, far away.
-    static const f64 cases[][3] = {{0, 2, 1},    {3, 1, 0.5},   {3, 0.25, 1},  {2, -0.5, 1},     {0, 1.001, 1},
-                                   {0, 1.00001, 1}, {1, 1.5, 1.8}, {500, 9e3, 1}, {2e4, 1e4, 1}, {0, 1e-3, 4e-4}};
+    static const f64 cases[][3] = { { 0, 2, 1 },     { 3, 1, 0.5 },     { 3, 0.25, 1 },  { 2, -0.5, 1 },
+                                    { 0, 1.001, 1 }, { 0, 1.00001, 1 }, { 1, 1.5, 1.8 }, { 500, 9e3, 1 },
+                                    { 2e4, 1e4, 1 }, { 0, 1e-3, 4e-4 } };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const f64 x = cases[i][0], z = cases[i][1], radius = cases[i][2], distance = hypot(x, z);
         char *scene = text_of("light sphere { center %.17g 0 %.17g radius %.17g radiance 2 samples %d }\n"
@@ -147,10 +151,12 @@ static void test_penumbra(void **state)
         const Vec3 p = {places[i], 0.2, 0};
         const Polygon light = {{{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}}, 4};
         const Polygon seen = clipped(&light, (Vec3){1, 0, 0}, -p.x);
-        char *scene = text_of("light rectangle { corner -1 -1 2 edge1 0 2 0 edge2 2 0 0 radiance 3 samples %d }\n%s",
-                              1 + (int)i % 2, blocker);
+        char *scene =
+            text_of("light rectangle { corner -1 -1 2 edge1 0 2 0 edge2 2 0 0 radiance 3 samples %d }\n%s",
+                    1 + (int)i % 2, blocker);
         char *what = text_of("penumbra at %g", p.x);
-        expect_estimate(estimate_point(*state, p.x, p.y, 64, scene), 3 * polygon_irradiance(seen, p) / pi, what);
+        expect_estimate(estimate_point(*state, p.x, p.y, 64, scene), 3 * polygon_irradiance(seen, p) / pi,
+                        what);
         free(what);
         free(scene);
     }
@@ -176,10 +182,11 @@ static void test_penumbra_of_sphere(void **state)
         }
         const f64 expected = 2 * sum * half / RINGS * 2 * pi / STEPS / pi;
         char *what = text_of("penumbra of a sphere at %g", places[i]);
-        expect_estimate(estimate_point(*state, places[i], 0, 64,
-                                       "light sphere { center 0 0 2 radius 0.5 radiance 2 samples 2 }\nambient 0\n"
-                                       "triangle { vertices 0 -500 1 0 500 1 -500 0 1 }\n"),
-                        expected, what);
+        expect_estimate(
+            estimate_point(*state, places[i], 0, 64,
+                           "light sphere { center 0 0 2 radius 0.5 radiance 2 samples 2 }\nambient 0\n"
+                           "triangle { vertices 0 -500 1 0 500 1 -500 0 1 }\n"),
+            expected, what);
         free(what);
     }
 }
@@ -222,8 +229,9 @@ static void test_carried(void **state)
     const Vec3 p = {6, 1, 0};
     const Polygon light = {{{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}}, 4};
     for (size_t i = 0; i < sizeof carriers / sizeof *carriers; i++) {
-        char *scene = text_of("light rectangle { corner -1 -1 2 edge1 0 2 0 edge2 2 0 0 radiance 3 }\nambient 0\n%s",
-                              carriers[i]);
+        char *scene =
+            text_of("light rectangle { corner -1 -1 2 edge1 0 2 0 edge2 2 0 0 radiance 3 }\nambient 0\n%s",
+                    carriers[i]);
         expect_estimate(estimate_point(*state, p.x, p.y, 16, scene), 3 * polygon_irradiance(light, p) / pi,
                         "a light on its carrier");
         free(scene);
@@ -246,8 +254,9 @@ static void test_occlusion(void **state)
         free(scene);
     }
     // What is farther than the rays go, or is glass: nothing, and all.
-    const Estimate near = estimate_point(*state, 0, 0, 16, "render { ambient_occlusion 2 0.49 }\nambient 0.75\n"
-                                                           "sphere { center 0 0 1.5 radius 1 }\n");
+    const Estimate near = estimate_point(*state, 0, 0, 16,
+                                         "render { ambient_occlusion 2 0.49 }\nambient 0.75\n"
+                                         "sphere { center 0 0 1.5 radius 1 }\n");
     expect_estimate(near, 0.75, "occlusion out of reach");
     const Estimate glass = estimate_point(*state, 0, 0, 16,
                                           "render { ambient_occlusion 2 9 }\nambient 0.75\n"
@@ -290,10 +299,14 @@ int main(void)
     if (!device)
         return TEST_SKIP;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(test_rectangle, device), cmocka_unit_test_prestate(test_sphere, device),
-        cmocka_unit_test_prestate(test_penumbra, device),  cmocka_unit_test_prestate(test_penumbra_of_sphere, device),
-        cmocka_unit_test_prestate(test_seen, device),      cmocka_unit_test_prestate(test_carried, device),
-        cmocka_unit_test_prestate(test_occlusion, device), cmocka_unit_test_prestate(test_slope, device),
+        cmocka_unit_test_prestate(test_rectangle, device),
+        cmocka_unit_test_prestate(test_sphere, device),
+        cmocka_unit_test_prestate(test_penumbra, device),
+        cmocka_unit_test_prestate(test_penumbra_of_sphere, device),
+        cmocka_unit_test_prestate(test_seen, device),
+        cmocka_unit_test_prestate(test_carried, device),
+        cmocka_unit_test_prestate(test_occlusion, device),
+        cmocka_unit_test_prestate(test_slope, device),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     device_close(device);
