@@ -21,7 +21,7 @@ static inline RoundSolid round_solid(const PrimitiveLanes *p, const RayLanes *ra
     const CanonicalRay q = canonical_ray(p, ray);
     s.o = q.o;
     s.d = q.d;
-    s.shift = q.shift + closest_shift(&s.o, s.d, v3_dot(s.d, s.d), (vf)(4.0f));
+    s.shift = q.shift + closest_shift(&s.o, s.d, v3_dot(s.d, s.d), (vf)(FAR_FROM_CENTRE));
     const vf inverse = (vf)(1.0f) / s.d.z;
     const vm parallel = fabs(inverse) == (vf)(INFINITY);
     const vm between = fabs(s.o.z) <= (vf)(1.0f);

@@ -6,6 +6,7 @@
 #ifndef CLRT_KERNELS_SHAPES_ROOTS_H
 #define CLRT_KERNELS_SHAPES_ROOTS_H
 
+#include "base/exact.h"
 #include "base/ray.h"
 #include "shapes/surface.h"
 #include "shapes/tangents.h"
@@ -55,6 +56,7 @@ static inline Interval quadratic_roots(vf a, vf b, vf c)
 // to the centre, since there the squares of distances no longer cancel (Haines, Guenther, Akenine-Moeller,
 // "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019). fma rounds the moved origin
 // once, so that the ray stays the same ray. Returns the t of the new origin; dd = |d|^2.
+#define FAR_FROM_CENTRE 2.25f
 static inline vf closest_shift(v3 *o, v3 d, vf dd, vf far2)
 {
     const vm far = v3_dot(*o, *o) >= far2;
@@ -143,6 +145,15 @@ static inline void surface_curved(const PrimitiveLanes *p, v3 gradient, vf value
 static inline vf plane_distance(v3 plane, vf offset, v3 p)
 {
     return fma(plane.z, p.z, fma(plane.y, p.y, fma(plane.x, p.x, -offset)));
+}
+
+// The same to about one rounding of what is left, however much cancels: from far away that is what t stands on.
+static inline vf plane_height(v3 plane, vf offset, v3 p)
+{
+    const vf2 x = two_product(plane.x, p.x), y = two_product(plane.y, p.y), z = two_product(plane.z, p.z);
+    const vf2 first = two_sum(x.hi, -offset), second = two_sum(y.hi, z.hi);
+    const vf2 sum = two_sum(first.hi, second.hi);
+    return sum.hi + (sum.lo + ((first.lo + second.lo) + ((x.lo + y.lo) + z.lo)));
 }
 
 #endif

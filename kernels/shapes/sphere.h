@@ -12,7 +12,7 @@
 static inline Interval sphere_roots(v3 f, v3 d, vf r, vm self)
 {
     const vf dd = v3_dot(d, d);
-    const vf shift = closest_shift(&f, d, dd, 4.0f * r * r);
+    const vf shift = closest_shift(&f, d, dd, FAR_FROM_CENTRE * r * r);
     const vf distance = sqrt(v3_dot(f, f));
     const vf c = self ? (vf)(0.0f) : (distance - r) * (distance + r);
     const Interval roots = quadratic_roots(dd, v3_dot(f, d), c);

@@ -123,7 +123,7 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_BVH
                          global const BvhNode *nodes,
 #endif
-#if HAS_TEXTURES
+#if HAS_CHECKER || HAS_CHECKER3D || HAS_IMAGE
                          global const TextureRecord *textures,
 #endif
 #if HAS_IMAGE

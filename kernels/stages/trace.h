@@ -9,7 +9,8 @@
 #include "stages/shade.h"
 #endif
 
-// Origins of LANES rays at places first.. of a batch; self and instance: the surface that they start on.
+// Origins of LANES rays at places first.. of a batch; self and instance: the surface that they start on. The
+// batch meets all primitives; a shadow ray leaves out that of its light.
 static inline void batch_start(BatchRays *rays, BatchHits *hits, int first, v3 org, vi self, vi instance)
 {
     VF_STORE(org.x, &rays->org_x[first]);
@@ -18,6 +19,9 @@ static inline void batch_start(BatchRays *rays, BatchHits *hits, int first, v3 o
     VI_STORE(self, &hits->self[first]);
 #if HAS_INSTANCES
     VI_STORE(instance, &hits->self_instance[first]);
+#endif
+#if HAS_AREA_LIGHTS
+    hits->left_out = NO_HIT;
 #endif
 }
 
@@ -55,9 +59,6 @@ OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint coun
                         self_instance);
             batch_aim(&rays, &hits, k, state_load3(s, RAY_DIR, &slots), (vf)(INFINITY));
         }
-#if HAS_AREA_LIGHTS
-        hits.left_out = NO_HIT;
-#endif
         traverse(scene, &rays, &hits, batch_mask(count - begin), false, false, 0);
         for (int k = 0; k < BATCH; k += LANES) {
             const Slots slots = slots_make(queue, begin + (uint)k, count);

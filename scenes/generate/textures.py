@@ -279,11 +279,11 @@ def sky(direction):
     blue = tuple(c + glow * w for c, w in zip(blue, (1.0, 0.86, 0.66)))
     # Clouds on a plane above, thinner towards the horizon where they would crowd.
     at = (x / (y + 0.16) * 1.1 + 3.1, 0.5, z / (y + 0.16) * 1.1 + 7.7)
-    cover = step(0.50, 0.74, fractal3(at, 5, 61)) * step(0.02, 0.22, y)
+    cover = step(0.46, 0.68, fractal3(at, 5, 61)) * step(0.02, 0.22, y)
     lit = 0.80 + 0.75 * max(cosine, 0) ** 6 - 0.25 * fractal3([3 * c for c in at], 3, 71)
     color = mix(blue, (1.12 * lit, 1.08 * lit, 1.04 * lit), 0.9 * cover)
     angle = math.degrees(math.acos(clamp(cosine, -1, 1)))
-    sun = 1400 * (1 - step(0.6, 2.4, angle))
+    sun = 2600 * (1 - step(0.6, 2.4, angle))
     return tuple(c + sun * w for c, w in zip(color, (1.0, 0.88, 0.70)))
 
 
@@ -312,7 +312,7 @@ def main():
     write_png(path("tiles.png"), colors(512, tile_color), 3)
     write_png(path("tiles_normal.png"), normals(256, tile_height, 0.02), 3)
     write_png(path("tiles_roughness.png"), tile_roughness(256), 1)
-    write_png(path("hammered_normal.png"), normals(256, hammered_height, 0.075), 3)
+    write_png(path("hammered_normal.png"), normals(256, hammered_height, 0.05), 3)
     write_hdr(path("sky.hdr"), 256, 128, sky)
     write_hdr(path("room.hdr"), 128, 64, room)
 

@@ -102,7 +102,8 @@ static void instances_keep_points_and_normals(void **state)
     KernelProgram *program = kernel_program_create_with(
         *state, source, LANES,
         "-Werror -DHAS_UV=0 -DHAS_SPHERE=1 -DHAS_GIANT_SPHERE=0 -DHAS_ELLIPSOID=0 -DHAS_PLANE=0 -DHAS_BOX=0 "
-        "-DHAS_TETRAHEDRON=0 -DHAS_DISK=0 -DHAS_CYLINDER=0 -DHAS_CONE=0 -DHAS_TORUS=0 -DHAS_TRIANGLE=0");
+        "-DHAS_TETRAHEDRON=0 -DHAS_DISK=0 -DHAS_CYLINDER=0 -DHAS_CONE=0 -DHAS_TORUS=0 "
+        "-DHAS_RECTANGLE=0 -DHAS_TRIANGLE=0");
     const uint32_t n = RAYS;
     kernel_run(program, "place", RAYS / LANES,
                (KernelArg[]){kernel_in(records, sizeof records), kernel_in(&frame, sizeof frame),

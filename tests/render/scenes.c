@@ -71,7 +71,7 @@ const char scene_toys[] =
     "mesh { file \"gem.obj\" scale ~0.625 translate P(-0.75 0.625 2.25) material mirror }\n";
 
 const char scene_studio[] =
-    "image { size 80 60 samples 2 filter tent }\n"
+    "image { size 92 75 samples 2 filter tent }\n"
     "camera { position P(1 2 6) look_at P(0 0.5 0) up D(0 1 0) fov 40 aperture ~0.125 }\n"
     "render { max_depth 4 ambient_occlusion 2 ~3 environment_samples 3 }\n"
     "ambient 0.125\n"
