@@ -6,7 +6,6 @@
 #ifndef CLRT_KERNELS_SHAPES_ROOTS_H
 #define CLRT_KERNELS_SHAPES_ROOTS_H
 
-#include "base/exact.h"
 #include "base/ray.h"
 #include "shapes/surface.h"
 #include "shapes/tangents.h"
@@ -147,13 +146,22 @@ static inline vf plane_distance(v3 plane, vf offset, v3 p)
     return fma(plane.z, p.z, fma(plane.y, p.y, fma(plane.x, p.x, -offset)));
 }
 
-// The same to about one rounding of what is left, however much cancels: from far away that is what t stands on.
+// a b + c = sum + *rest, but for a few roundings of *rest: Knuth's sum of two numbers, with a product for one.
+static inline vf fma_rest(vf a, vf b, vf c, vf *rest)
+{
+    const vf sum = fma(a, b, c);
+    const vf added = sum - c;
+    *rest = (c - (sum - added)) + fma(a, b, -added);
+    return sum;
+}
+
+// The same to about one rounding of what is left, however much cancels: on that stands t of a shape far away.
 static inline vf plane_height(v3 plane, vf offset, v3 p)
 {
-    const vf2 x = two_product(plane.x, p.x), y = two_product(plane.y, p.y), z = two_product(plane.z, p.z);
-    const vf2 first = two_sum(x.hi, -offset), second = two_sum(y.hi, z.hi);
-    const vf2 sum = two_sum(first.hi, second.hi);
-    return sum.hi + (sum.lo + ((first.lo + second.lo) + ((x.lo + y.lo) + z.lo)));
+    vf rest_x, rest_y;
+    const vf x = fma_rest(plane.x, p.x, -offset, &rest_x);
+    const vf y = fma_rest(plane.y, p.y, x, &rest_y);
+    return fma(plane.z, p.z, y) + (rest_x + rest_y);
 }
 
 #endif

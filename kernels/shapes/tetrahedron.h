@@ -13,7 +13,7 @@ static inline v3 tetrahedron_last_row(const PrimitiveLanes *p)
 // The part of the ray in the half-space row.p + offset >= 0, whose boundary it meets at *t.
 static inline Interval half_space(v3 row, vf offset, const RayLanes *ray, vf *t)
 {
-    const vf q = plane_distance(row, -offset, ray->org);
+    const vf q = plane_height(row, -offset, ray->org);
     const vf rate = v3_dot(row, ray->dir);
     const vf meet = -q / rate;
     const vm parallel = rate == (vf)(0.0f);

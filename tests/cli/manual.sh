@@ -5,7 +5,7 @@
 # - every scene in REPO/scenes is one without errors;
 # - every scene has its row in the manual's table.
 # A block marked ```scene NAME is kept as NAME, so that blocks after it can include it; one marked
-# ```file NAME is kept for them and is no scene.
+# ```file NAME is kept for them and is no scene. Blocks find the folders of files that the scenes share.
 set -u
 
 if [ $# -ne 2 ]; then
@@ -26,6 +26,10 @@ fail() {
     echo "FAIL $1" >&2
     failures=$((failures + 1))
 }
+
+for shared in textures meshes; do
+    ln -s "$scenes/$shared" "$folder/$shared" || exit 2
+done
 
 # Writes each block to a file of its own; the list says kind, line in the manual and file.
 awk -v folder="$folder" '
