@@ -15,6 +15,7 @@
 #include "assets/weld.h"
 
 typedef struct Import {
+    const char *path;
     const struct aiScene *scene;
     ImportFile *file;
     Placements placements;
@@ -40,6 +41,19 @@ static bool has_normals(const Import *import, const struct aiMesh *mesh)
     return mesh->mNormals && !import->facets;
 }
 
+static i32 material_of(const Import *import, const struct aiMesh *mesh)
+{
+    return mesh->mMaterialIndex < import->file->material_count ? (i32)mesh->mMaterialIndex : -1;
+}
+
+// The uvs that the material's maps want, NULL where the mesh lacks them.
+static const struct aiVector3D *uvs_of(const Import *import, const struct aiMesh *mesh)
+{
+    const i32 material = material_of(import, mesh);
+    const u32 set = material < 0 ? 0 : import->file->materials[material].uvs.set;
+    return set < AI_MAX_NUMBER_OF_TEXTURECOORDS ? mesh->mTextureCoords[set] : NULL;
+}
+
 static Counts count_all(const Import *import)
 {
     Counts counts = {0};
@@ -47,7 +61,7 @@ static Counts count_all(const Import *import)
         const struct aiMesh *mesh = import->placements.list[i].mesh;
         counts.positions += mesh->mNumVertices;
         counts.normals += has_normals(import, mesh) ? mesh->mNumVertices : 0;
-        counts.uvs += mesh->mTextureCoords[0] ? mesh->mNumVertices : 0;
+        counts.uvs += uvs_of(import, mesh) ? mesh->mNumVertices : 0;
         for (u32 f = 0; f < mesh->mNumFaces; ++f)
             counts.faces += mesh->mFaces[f].mNumIndices > 2 ? mesh->mFaces[f].mNumIndices - 2 : 0;
         if (mesh->mNumVertices > counts.vertices_most)
@@ -144,12 +158,19 @@ static void copy_normals(Mesh *mesh, const Placement *placement)
 }
 
 // The library turns v so that it is 0 at the bottom of an image, whatever the format says.
-static void copy_uvs(Mesh *mesh, const struct aiMesh *from)
+static void copy_uvs(const Import *import, const struct aiMesh *from)
 {
+    Mesh *mesh = &import->file->mesh;
+    const struct aiVector3D *uvs = uvs_of(import, from);
+    const i32 material = material_of(import, from);
     for (u32 i = 0; i < from->mNumVertices; ++i) {
         f32 *to = mesh->uvs[mesh->uv_count++];
-        to[0] = from->mTextureCoords[0][i].x;
-        to[1] = from->mTextureCoords[0][i].y;
+        to[0] = uvs[i].x;
+        to[1] = uvs[i].y;
+        for (u32 k = 0; k < 2 && material >= 0; ++k) {
+            const f64 *row = import->file->materials[material].uvs.row[k];
+            to[k] = (f32)(row[0] * (f64)uvs[i].x + row[1] * (f64)uvs[i].y + row[2]);
+        }
     }
 }
 
@@ -218,11 +239,6 @@ static bool copy_faces(Import *import, const Placement *placement, Bases bases, 
     return true;
 }
 
-static i32 material_of(const Import *import, const struct aiMesh *mesh)
-{
-    return mesh->mMaterialIndex < import->file->material_count ? (i32)mesh->mMaterialIndex : -1;
-}
-
 static bool copy_placement(Import *import, const Placement *placement, Error *error)
 {
     Mesh *mesh = &import->file->mesh;
@@ -234,9 +250,9 @@ static bool copy_placement(Import *import, const Placement *placement, Error *er
         bases.normal = mesh->normal_count;
         copy_normals(mesh, placement);
     }
-    if (from->mTextureCoords[0]) {
+    if (uvs_of(import, from)) {
         bases.uv = mesh->uv_count;
-        copy_uvs(mesh, from);
+        copy_uvs(import, from);
     }
     const u32 first = mesh->face_count;
     if (!copy_faces(import, placement, bases, error))
@@ -247,6 +263,26 @@ static bool copy_placement(Import *import, const Placement *placement, Error *er
 }
 
 // ---- the file -------------------------------------------------------------------------------
+
+static bool is_colored(const struct aiMesh *mesh)
+{
+    bool colored = false;
+    for (u32 i = 0; mesh->mColors[0] && i < mesh->mNumVertices && !colored; ++i) {
+        const struct aiColor4D *c = &mesh->mColors[0][i];
+        colored = c->r < 1 || c->g < 1 || c->b < 1;
+    }
+    return colored;
+}
+
+static void note_colors(Import *import)
+{
+    for (u32 i = 0; i < import->scene->mNumMeshes; ++i) {
+        const struct aiMesh *mesh = import->scene->mMeshes[i];
+        const i32 material = material_of(import, mesh);
+        if (material >= 0 && is_colored(mesh))
+            import->file->materials[material].left_out |= 1u << IMPORT_VERTEX_COLORS;
+    }
+}
 
 static bool format_begins(const struct aiScene *scene, const char *name)
 {
@@ -265,9 +301,10 @@ static bool convert(const Assimp *assimp, Import *import, Error *error)
 {
     import->facets = format_begins(import->scene, "Stereolithography");
     import->gltf = format_begins(import->scene, "glTF2");
-    if ((import->gltf && !import_materials(assimp, import->scene, import->file, error)) ||
+    if ((import->gltf && !import_materials(assimp, import->scene, import->path, import->file, error)) ||
         !placements_make(import->scene, &import->placements, error))
         return false;
+    note_colors(import);
     const Counts counts = count_all(import);
     if (counts.faces == 0)
         return true;
@@ -288,7 +325,7 @@ bool import_read(const char *path, ImportFile *file, Error *error)
     Assimp assimp;
     if (!ply_head_check(path, error) || !assimp_open(&assimp, error))
         return false;
-    Import import = {.file = file, .scene = assimp.import_file(path, 0)};
+    Import import = {.path = path, .file = file, .scene = assimp.import_file(path, 0)};
     bool ok = import.scene ? convert(&assimp, &import, error)
                            : error_set(error, ERROR_SCENE, "%.1000s", assimp.error_string());
     placements_free(&import.placements);

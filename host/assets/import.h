@@ -21,10 +21,27 @@ typedef enum ImportMap {
 } ImportMap;
 
 typedef struct ImportTexture {
-    char *file;   // as written, relative to the file's folder; NULL: none, or one of the images
+    char *file;   // relative to the file's folder; NULL: none, or one of the images
     i32 image;    // index of one of the images, -1: none
     bool nearest; // no filter
+    f64 fade;     // as in Texture: normal scale, occlusion strength
 } ImportTexture;
+
+// From the uvs of a mesh to those that the maps of its material are looked up by; v runs upwards in both.
+typedef struct ImportUvs {
+    u32 set;       // of the mesh's sets
+    f64 row[2][3]; // of u and v: factors of u, v and 1
+} ImportUvs;
+
+// What a file can say and a material of the language cannot.
+typedef enum ImportLeftOut {
+    IMPORT_WRAP,          // textures that are clamped or mirrored, in place of repeating
+    IMPORT_OTHER_UVS,     // a map with other uvs than the first
+    IMPORT_ALPHA,         // alpha is not opaque
+    IMPORT_LAYERS,        // clear coat, sheen, specular and glossiness, unlit, a map of transmission
+    IMPORT_VERTEX_COLORS, // not all of them white
+    IMPORT_LEFT_OUTS
+} ImportLeftOut;
 
 // Of glTF: the part of its model that the renderer has. Colors are linear.
 typedef struct ImportMaterial {
@@ -34,7 +51,8 @@ typedef struct ImportMaterial {
     f64 transmit;              // 0 .. 1
     f64 ior;                   // above 0
     ImportTexture maps[IMPORT_MAPS];
-    bool inexact; // a texture is transformed, clamped, scaled, or not by the first uvs: that is left out
+    ImportUvs uvs;
+    u32 left_out; // bits 1 << ImportLeftOut
 } ImportMaterial;
 
 typedef struct ImportFile {
@@ -51,8 +69,8 @@ bool import_available(void);
 
 // Reads the file at path, whose format is told by its suffix and its first bytes. Its nodes are placed by
 // their transforms; mirrored ones have their corners turned round, so that outward stays outward. Polygons
-// are fans from the first corner; points, lines, cameras, lights, bones, colours of vertices and uvs but the
-// first are ignored. Where a file gives every corner a vertex of its own (STL), positions that are equal are
+// are fans from the first corner; points, lines, cameras, lights, bones, colours of vertices and uvs but one
+// set are ignored; uvs are those of the material's maps. Where a file gives every corner a vertex of its own (STL), positions that are equal are
 // joined, so that normals can be made; the normals of STL's facets are ignored, which say nothing new.
 // Fails with ERROR_SCENE, or ERROR_MEMORY; the text is the reason alone, *file is empty then.
 bool import_read(const char *path, ImportFile *file, Error *error);

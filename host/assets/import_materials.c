@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "assets/gltf_json.h"
+
 // Of OpenGL, as glTF has it.
 enum { FILTER_NEAREST_GL = 9728 };
 
@@ -47,25 +49,80 @@ static Vec3 color_of(const Assimp *assimp, const struct aiMaterial *from, const 
 
 // ---- textures -------------------------------------------------------------------------------
 
-// What the library says of a texture beside its file that is not as in a scene file.
-static bool is_inexact(const Assimp *assimp, const struct aiMaterial *from, enum aiTextureType type, unsigned uvs,
-                       const enum aiTextureMapMode modes[2])
+static const ImportUvs PLAIN_UVS = {0, {{1, 0, 0}, {0, 1, 0}}};
+
+// The uvs of a texture. glTF's transform scales, turns counter-clockwise and moves, with v downwards. The
+// library moves to another origin, about which it turns; that is undone here.
+static ImportUvs uvs_of(const Assimp *assimp, const struct aiMaterial *from, enum aiTextureType type, unsigned set)
 {
-    static const ai_real neutral[5] = {0, 0, 1, 1, 0}; // translation, scale, rotation
-    ai_real transform[5];
+    ImportUvs uvs = PLAIN_UVS;
+    ai_real t[5]; // translation, scale, rotation
     unsigned count = 5;
-    bool inexact = uvs != 0 || modes[0] != aiTextureMapMode_Wrap || modes[1] != aiTextureMapMode_Wrap;
-    if (assimp->material_numbers(from, AI_MATKEY_UVTRANSFORM(type, 0), transform, &count) == aiReturn_SUCCESS)
-        for (u32 i = 0; i < 5 && count == 5; ++i)
-            inexact |= transform[i] < neutral[i] || transform[i] > neutral[i];
-    return inexact || number_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0), 1) < 1 ||
-           number_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0), 1) > 1 ||
-           number_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_STRENGTH(type, 0), 1) < 1;
+    uvs.set = set;
+    if (assimp->material_numbers(from, AI_MATKEY_UVTRANSFORM(type, 0), t, &count) != aiReturn_SUCCESS || count != 5)
+        return uvs;
+    for (u32 i = 0; i < 5; ++i)
+        if (!isfinite(t[i]))
+            return uvs;
+    const f64 su = (f64)t[2], sv = (f64)t[3], c = cos(-(f64)t[4]), s = sin(-(f64)t[4]);
+    const f64 u0 = (f64)t[0] - su / 2 * (s - c + 1), v0 = 1 - sv + sv / 2 * (s + c - 1) - (f64)t[1];
+    const f64 row[2][3] = {{c * su, -s * sv, u0 + s * sv}, {s * su, c * sv, 1 - v0 - c * sv}};
+    memcpy(uvs.row, row, sizeof row);
+    return uvs;
 }
 
-// Of the first of two types that the library has a texture of. Returns false where memory is exhausted.
+static bool same_uvs(const ImportUvs *a, const ImportUvs *b)
+{
+    bool same = a->set == b->set;
+    for (u32 i = 0; i < 6; ++i)
+        same = same && fabs(a->row[i / 3][i % 3] - b->row[i / 3][i % 3]) <= 1e-6;
+    return same;
+}
+
+// What the language has no word for.
+static u32 left_out_of(const Assimp *assimp, const struct aiMaterial *from)
+{
+    struct aiString alpha, path;
+    int shading = 0;
+    unsigned count = 1;
+    const Vec3 sheen = color_of(assimp, from, AI_MATKEY_SHEEN_COLOR_FACTOR, 0);
+    const bool layers =
+        number_of(assimp, from, AI_MATKEY_CLEARCOAT_FACTOR, 0) > 0 || sheen.x > 0 || sheen.y > 0 || sheen.z > 0 ||
+        number_of(assimp, from, AI_MATKEY_GLOSSINESS_FACTOR, -1) >= 0 ||
+        assimp->texture(from, AI_MATKEY_TRANSMISSION_TEXTURE, &path, NULL, NULL, NULL, NULL, NULL, NULL) ==
+            aiReturn_SUCCESS ||
+        (assimp->material_whole(from, AI_MATKEY_SHADING_MODEL, &shading, &count) == aiReturn_SUCCESS &&
+         shading == aiShadingMode_NoShading);
+    const bool blended = assimp->material_string(from, AI_MATKEY_GLTF_ALPHAMODE, &alpha) == aiReturn_SUCCESS &&
+                         strcmp(alpha.data, "OPAQUE") != 0;
+    return (layers ? 1u << IMPORT_LAYERS : 0) | (blended ? 1u << IMPORT_ALPHA : 0);
+}
+
+static int hex_digit(char c)
+{
+    static const char digits[] = "0123456789abcdef0123456789ABCDEF";
+    const char *found = c ? strchr(digits, c) : NULL;
+    return found ? (int)(found - digits) % 16 : -1;
+}
+
+// The name of a file that a URI is; NULL where memory is exhausted.
+static char *file_of(const char *uri)
+{
+    char *name = malloc(strlen(uri) + 1), *to = name;
+    while (name && *uri) {
+        const int high = *uri == '%' ? hex_digit(uri[1]) : -1, low = high < 0 ? -1 : hex_digit(uri[2]);
+        const bool coded = low >= 0 && high + low > 0;
+        *to++ = coded ? (char)(high * 16 + low) : *uri;
+        uri += coded ? 3 : 1;
+    }
+    if (name)
+        *to = 0;
+    return name;
+}
+
+// Of the first of two types that the library has a texture of. *mapped: there was one in the material before. Returns
 static bool read_texture(const Assimp *assimp, const struct aiMaterial *from, const enum aiTextureType types[2],
-                         const ImportFile *file, ImportMaterial *material, ImportTexture *texture)
+                         const ImportFile *file, ImportMaterial *material, ImportTexture *texture, bool *mapped)
 {
     texture->image = -1;
     for (u32 i = 0; i < 2; ++i) {
@@ -78,9 +135,19 @@ static bool read_texture(const Assimp *assimp, const struct aiMaterial *from, co
         if (assimp->material_whole(from, AI_MATKEY_GLTF_MAPPINGFILTER_MAG(types[i], 0), &filter, &count) ==
             aiReturn_SUCCESS)
             texture->nearest = filter == FILTER_NEAREST_GL;
-        material->inexact |= is_inexact(assimp, from, types[i], uvs, modes);
+        // The one is only given for normal maps, the other for occlusion.
+        texture->fade = 1 - number_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_SCALE(types[i], 0), 1) *
+                                share_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_STRENGTH(types[i], 0), 1);
+        if (modes[0] != aiTextureMapMode_Wrap || modes[1] != aiTextureMapMode_Wrap)
+            material->left_out |= 1u << IMPORT_WRAP;
+        const ImportUvs own = uvs_of(assimp, from, types[i], uvs);
+        if (!*mapped)
+            material->uvs = own;
+        else if (!same_uvs(&own, &material->uvs))
+            material->left_out |= 1u << IMPORT_OTHER_UVS;
+        *mapped = true;
         if (path.data[0] != '*') {
-            texture->file = strdup(path.data);
+            texture->file = file_of(path.data);
             return texture->file != NULL;
         }
         const unsigned long image = strtoul(path.data + 1, NULL, 10);
@@ -100,9 +167,9 @@ static bool read_textures(const Assimp *assimp, const struct aiMaterial *from, c
         [IMPORT_OCCLUSION] = {aiTextureType_LIGHTMAP, aiTextureType_AMBIENT_OCCLUSION},
         [IMPORT_EMISSION] = {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR},
     };
-    bool ok = true;
+    bool ok = true, mapped = false;
     for (u32 i = 0; i < IMPORT_MAPS; ++i)
-        ok = read_texture(assimp, from, types[i], file, material, &material->maps[i]) && ok;
+        ok = read_texture(assimp, from, types[i], file, material, &material->maps[i], &mapped) && ok;
     return ok;
 }
 
@@ -136,21 +203,36 @@ static bool read_material(const Assimp *assimp, const struct aiMaterial *from, c
     material->name = strdup(named ? name.data : "");
     material->base_color = color_of(assimp, from, AI_MATKEY_BASE_COLOR, 1);
     material->emission = color_of(assimp, from, AI_MATKEY_COLOR_EMISSIVE, 0);
-    const f64 strength = fmax(number_of(assimp, from, AI_MATKEY_EMISSIVE_INTENSITY, 1), 0);
-    material->emission.x = fmin(material->emission.x * strength, (f64)FLT_MAX);
-    material->emission.y = fmin(material->emission.y * strength, (f64)FLT_MAX);
-    material->emission.z = fmin(material->emission.z * strength, (f64)FLT_MAX);
     material->metallic = share_of(assimp, from, AI_MATKEY_METALLIC_FACTOR, 1);
     material->roughness = share_of(assimp, from, AI_MATKEY_ROUGHNESS_FACTOR, 1);
     material->transmit = share_of(assimp, from, AI_MATKEY_TRANSMISSION_FACTOR, 0);
     material->ior = number_of(assimp, from, AI_MATKEY_REFRACTI, 1.5);
     if (!(material->ior > 0))
         material->ior = 1.5;
+    material->uvs = PLAIN_UVS;
+    material->left_out = left_out_of(assimp, from);
     return read_textures(assimp, from, file, material) && material->name;
 }
 
+// Older versions of the library do not tell the strengths.
+static bool strengthen(const char *path, ImportFile *file, Error *error)
+{
+    f64 *strengths = calloc((size_t)file->material_count + 1, sizeof *strengths);
+    const bool ok =
+        strengths ? gltf_emissive_strengths(path, strengths, file->material_count, error) : no_memory(error);
+    for (u32 i = 0; ok && i < file->material_count; ++i) {
+        Vec3 *emission = &file->materials[i].emission;
+        emission->x = fmin(emission->x * strengths[i], (f64)FLT_MAX);
+        emission->y = fmin(emission->y * strengths[i], (f64)FLT_MAX);
+        emission->z = fmin(emission->z * strengths[i], (f64)FLT_MAX);
+    }
+    free(strengths);
+    return ok;
+}
+
 // The last material of the library's glTF reader is its own, for meshes that name none.
-bool import_materials(const Assimp *assimp, const struct aiScene *scene, ImportFile *file, Error *error)
+bool import_materials(const Assimp *assimp, const struct aiScene *scene, const char *path, ImportFile *file,
+                      Error *error)
 {
     const u32 count = scene->mNumMaterials > 0 ? scene->mNumMaterials - 1 : 0;
     file->materials = calloc(count ? count : 1, sizeof *file->materials);
@@ -163,7 +245,7 @@ bool import_materials(const Assimp *assimp, const struct aiScene *scene, ImportF
         if (!read_material(assimp, scene->mMaterials[i], file, &file->materials[i]))
             return no_memory(error);
     }
-    return true;
+    return strengthen(path, file, error);
 }
 
 void import_materials_destroy(ImportFile *file)

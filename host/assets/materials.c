@@ -123,7 +123,11 @@ static Material phong_of(const MtlMaterial *mtl)
 // The texture of a file that a library names, where it names one.
 static bool add_map(const MaterialContext *context, const char *library, const char *name, i32 *index)
 {
-    return !name || add_texture(context, (Texture){.file = path_beside(context->arena, library, name)}, index);
+    if (!name)
+        return true;
+    const Texture texture = {.file = path_beside(context->arena, library, name),
+                             .named_by = arena_copy_text(context->arena, library, strlen(library))};
+    return texture.named_by && add_texture(context, texture, index);
 }
 
 static bool add_named(const MaterialContext *context, const ObjFile *obj, u32 i, Libraries *libraries,
@@ -202,10 +206,15 @@ typedef struct Import {
 } Import;
 
 // The texture of a map, where there is one; channel: what a number reads.
-static bool add_import_map(const Import *import, const ImportTexture *map, u32 channel, i32 *index)
+static bool add_import_map(const Import *import, const ImportMaterial *from, ImportMap kind, u32 channel, i32 *index)
 {
     const MaterialContext *context = import->context;
-    Texture texture = {.channel = channel, .filter = map->nearest ? TEXTURE_NEAREST : TEXTURE_BILINEAR};
+    const ImportTexture *map = &from->maps[kind];
+    Texture texture = {.named_by = context->path,
+                       .channel = channel,
+                       .filter = map->nearest ? TEXTURE_NEAREST : TEXTURE_BILINEAR,
+                       .fade = map->fade,
+                       .fade_to = kind == IMPORT_NORMAL ? 0.5 : 1};
     if (map->file) {
         texture.file = path_beside(context->arena, context->path, map->file);
         return add_texture(context, texture, index);
@@ -220,7 +229,6 @@ static bool add_import_map(const Import *import, const ImportTexture *map, u32 c
 
 static bool add_pbr(const Import *import, const ImportMaterial *from, i32 *index)
 {
-    const ImportTexture *maps = from->maps;
     Material material = material_default();
     material.kind = MATERIAL_PBR;
     material.base_color.color = from->base_color;
@@ -229,28 +237,43 @@ static bool add_pbr(const Import *import, const ImportMaterial *from, i32 *index
     material.roughness.value = from->roughness;
     material.pbr_transmit = from->transmit;
     material.ior = from->ior;
-    return add_import_map(import, &maps[IMPORT_BASE_COLOR], 0, &material.base_color.texture) &&
-           add_import_map(import, &maps[IMPORT_METALLIC_ROUGHNESS], 1, &material.roughness.texture) &&
-           add_import_map(import, &maps[IMPORT_METALLIC_ROUGHNESS], 2, &material.metallic.texture) &&
-           add_import_map(import, &maps[IMPORT_NORMAL], 0, &material.normal_map) &&
-           add_import_map(import, &maps[IMPORT_OCCLUSION], 0, &material.occlusion.texture) &&
-           add_import_map(import, &maps[IMPORT_EMISSION], 0, &material.emission.texture) &&
+    return add_import_map(import, from, IMPORT_BASE_COLOR, 0, &material.base_color.texture) &&
+           add_import_map(import, from, IMPORT_METALLIC_ROUGHNESS, 1, &material.roughness.texture) &&
+           add_import_map(import, from, IMPORT_METALLIC_ROUGHNESS, 2, &material.metallic.texture) &&
+           add_import_map(import, from, IMPORT_NORMAL, 0, &material.normal_map) &&
+           add_import_map(import, from, IMPORT_OCCLUSION, 0, &material.occlusion.texture) &&
+           add_import_map(import, from, IMPORT_EMISSION, 0, &material.emission.texture) &&
            add(import->context, material, from->name, index);
+}
+
+// One message for each kind of what is left out, by the first material that has it.
+static void report_left_out(const MaterialContext *context, const ImportFile *file)
+{
+    static const char *const kinds[IMPORT_LEFT_OUTS] = {
+        [IMPORT_WRAP] = "textures that are clamped or mirrored repeat",
+        [IMPORT_OTHER_UVS] = "all maps are looked up by the coordinates of the first",
+        [IMPORT_ALPHA] = "alpha is ignored",
+        [IMPORT_LAYERS] = "clear coat, sheen, specular and glossiness, unlit and maps of transmission are left out",
+        [IMPORT_VERTEX_COLORS] = "colors of vertices are ignored",
+    };
+    for (u32 kind = 0; kind < IMPORT_LEFT_OUTS; ++kind) {
+        u32 i = 0;
+        while (i < file->material_count && !(file->materials[i].left_out >> kind & 1))
+            ++i;
+        if (i < file->material_count)
+            scene_report(context->scene, context->diagnostics, SEVERITY_WARNING, context->at,
+                         "material '%s' of '%s': %s", file->materials[i].name, context->path, kinds[kind]);
+    }
 }
 
 bool materials_add_import(const MaterialContext *context, const ImportFile *file, i32 *indices, Error *error)
 {
     Import import = {context, file, calloc(file->image_count + (size_t)1, sizeof *import.images)};
-    bool ok = import.images && copy_images(context, file, import.images), inexact = false;
-    for (u32 i = 0; ok && i < file->material_count; ++i) {
-        inexact |= file->materials[i].inexact;
+    bool ok = import.images && copy_images(context, file, import.images);
+    for (u32 i = 0; ok && i < file->material_count; ++i)
         ok = add_pbr(&import, &file->materials[i], &indices[i]);
-    }
     free(import.images);
-    if (ok && inexact)
-        scene_report(context->scene, context->diagnostics, SEVERITY_WARNING, context->at,
-                     "what '%s' says of its textures beside their files is left out: transforms, clamping, "
-                     "strength, second coordinates",
-                     context->path);
+    if (ok)
+        report_left_out(context, file);
     return ok || no_memory(error);
 }

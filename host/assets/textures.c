@@ -18,11 +18,11 @@ static bool list_files(NamedFiles *named, const Scene *scene)
 {
     for (u32 i = 0; i < scene->texture_count; ++i) {
         const Texture *texture = &scene->textures[i];
-        if (is_image(texture) && !named_files_add(named, texture->file, texture->file_at))
+        if (is_image(texture) && !named_files_add(named, texture->file, texture->file_at, texture->named_by))
             return false;
     }
     const Environment *environment = &scene->environment;
-    return !environment->present || named_files_add(named, environment->file, environment->file_at);
+    return !environment->present || named_files_add(named, environment->file, environment->file_at, NULL);
 }
 
 static void repair(const NamedFiles *named, const char *path, SourcePos at, Bitmap *bitmap)
@@ -82,19 +82,91 @@ static void read_within(const NamedFiles *named, Scene *scene, u32 index)
         texture->bitmap = bitmap;
         return;
     }
-    scene_report(scene, named->diagnostics, SEVERITY_ERROR, texture->file_at, "cannot read an image in '%s': %s",
-                 texture->file, error.text);
+    scene_report(scene, named->diagnostics, SEVERITY_WARNING, texture->file_at,
+                 "cannot read an image in '%s': %s; it is left out", texture->file, error.text);
+}
+
+// ---- faded ----------------------------------------------------------------------------------
+
+static bool is_faded(const Texture *texture)
+{
+    return texture->kind == TEXTURE_IMAGE && (texture->fade < 0 || texture->fade > 0);
+}
+
+// In floats, because values may leave 0 .. 1, and are linear like those that are faded.
+static bool make_faded(const Texture *texture, const Bitmap *from, Bitmap *to)
+{
+    Error error; // memory is the only reason
+    if (!bitmap_create(to, from->width, from->height, from->channels, BITMAP_FLOAT, &error))
+        return false;
+    for (u32 y = 0; y < from->height; ++y) {
+        f32 *row = bitmap_row(to, y);
+        for (u32 x = 0; x < from->width; ++x)
+            for (u32 c = 0; c < from->channels; ++c) {
+                const f64 value = bitmap_value(from, x, y, c);
+                *row++ = (f32)(c < 2 ? value + texture->fade * (texture->fade_to - value) : value);
+            }
+    }
+    return true;
+}
+
+// Gives the textures that are faded bitmaps of their own, one for all that are alike.
+static bool fade(const NamedFiles *named, Scene *scene)
+{
+    const Bitmap **sources = arena_alloc(named->arena, scene->texture_count, sizeof *sources);
+    if (!sources)
+        return false;
+    for (u32 i = 0; i < scene->texture_count; ++i) {
+        Texture *texture = &scene->textures[i];
+        sources[i] = texture->bitmap;
+        if (!is_faded(texture) || !texture->bitmap)
+            continue;
+        u32 like = 0;
+        while (like < i && (sources[like] != sources[i] || scene->textures[like].fade != texture->fade ||
+                            scene->textures[like].fade_to != texture->fade_to))
+            ++like;
+        if (like < i) {
+            texture->bitmap = scene->textures[like].bitmap;
+            continue;
+        }
+        Bitmap *bitmap = &scene->bitmaps[scene->bitmap_count++];
+        if (!make_faded(texture, sources[i], bitmap))
+            return false;
+        texture->bitmap = bitmap;
+    }
+    return true;
+}
+
+// ---- left out -------------------------------------------------------------------------------
+
+static void forget(const Scene *scene, i32 *texture)
+{
+    if (*texture >= 0 && scene->textures[*texture].named_by && !scene->textures[*texture].bitmap)
+        *texture = -1;
+}
+
+// A material of a file goes without the images that cannot be read.
+static void forget_missing(Scene *scene)
+{
+    for (u32 i = 0; i < scene->material_count; ++i) {
+        Material *material = &scene->materials[i];
+        i32 *const inputs[] = {&material->ambient.texture,    &material->diffuse.texture,  &material->base_color.texture,
+                               &material->metallic.texture,   &material->roughness.texture, &material->occlusion.texture,
+                               &material->emission.texture,   &material->normal_map};
+        for (size_t k = 0; k < sizeof inputs / sizeof *inputs; ++k)
+            forget(scene, inputs[k]);
+    }
 }
 
 static bool load(NamedFiles *named, Scene *scene, Arena *arena)
 {
-    u32 within = 0;
+    u32 more = 0;
     scene->bitmap_count = 0;
     if (!named->arena || !list_files(named, scene))
         return false;
     for (u32 i = 0; i < scene->texture_count; ++i)
-        within += is_within(&scene->textures[i]);
-    scene->bitmaps = arena_alloc(arena, (size_t)named->count + within, sizeof *scene->bitmaps);
+        more += (u32)is_within(&scene->textures[i]) + (u32)is_faded(&scene->textures[i]);
+    scene->bitmaps = arena_alloc(arena, (size_t)named->count + more, sizeof *scene->bitmaps);
     if (!scene->bitmaps)
         return false;
     scene->bitmap_count = named->count;
@@ -108,7 +180,8 @@ static bool load(NamedFiles *named, Scene *scene, Arena *arena)
     }
     if (scene->environment.present)
         point_environment(named, &scene->environment);
-    return true;
+    forget_missing(scene);
+    return fade(named, scene);
 }
 
 bool textures_load(Scene *scene, Arena *arena, Diagnostics *diagnostics, Error *error)

@@ -89,6 +89,8 @@ static void add_runs(FaceWork *work, Level *level, u32 index, Corners corners)
     const Mesh *data = mesh->shape->as.mesh.mesh;
     u32 flags = affine_determinant(mesh->to_space) < 0 ? MESH_MIRRORED : 0;
     flags |= (corners.normals != NO_INDEX ? MESH_NORMALS : 0) | (corners.uvs != NO_INDEX ? MESH_UVS : 0);
+    if ((flags & MESH_NORMALS) && mesh->shape->as.mesh.terminator)
+        flags |= MESH_TERMINATOR;
     for (u32 part = 0; part < data->part_count; part = run_end(mesh, part)) {
         const u32 first = data->parts[part].first, material = part_material(mesh, part);
         const u64 order = mesh->order + first;

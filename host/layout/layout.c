@@ -130,6 +130,8 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
             set |= transmittance_features(&scene->materials[i]);
     if (!features_have(set, FEATURE_UV))
         set &= ~feature_bit(FEATURE_MESH_UVS);
+    if (!features_have(set, FEATURE_LIGHTS))
+        set &= ~feature_bit(FEATURE_TERMINATOR);
     if (positive(scene->background))
         set |= feature_bit(FEATURE_BACKGROUND);
     if (scene->camera.orthographic)

@@ -141,6 +141,8 @@ static bool add_mesh(Placer *placer, Level *level, const Shape *shape, Affine to
     placer->features |= feature_bit(FEATURE_MESH);
     if (mesh_has_normals(&mesh))
         placer->features |= feature_bit(FEATURE_MESH_NORMALS);
+    if (mesh_has_normals(&mesh) && shape->as.mesh.terminator)
+        placer->features |= feature_bit(FEATURE_TERMINATOR);
     if (mesh_has_uvs(&mesh))
         placer->features |= feature_bit(FEATURE_MESH_UVS);
     return true;

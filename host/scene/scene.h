@@ -122,6 +122,9 @@ typedef struct Texture {
     u32 channel;       // image: the one that a number reads, 0 .. 2
     const void *content; // image within another file: the bytes of the picture file, where `file` is the other's
     size_t content_size;
+    const char *named_by; // image: the file that names it, which can do without it; NULL: the scene itself
+    // image: each of the first two channels c becomes c + fade (fade_to - c); 0: they stay
+    f64 fade, fade_to;
 } Texture;
 
 // A color, times the texture with this index where texture >= 0.
@@ -197,6 +200,7 @@ typedef struct Shape {
         struct {
             const char *file; // resolved path
             i32 smooth;       // -1: as the file says
+            bool terminator;  // shadow rays start above its faces, where its normals make them bulge
             const Mesh *mesh; // one of Scene.meshes; NULL until assets_load
             SourcePos file_at;
         } mesh;

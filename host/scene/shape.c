@@ -87,6 +87,7 @@ static const Property MESH_PROPERTIES[] = {
     {"file", VALUE_FILE, AT(Shape, as.mesh.file), .required = true,
      .position = offsetof(Shape, as.mesh.file_at)},
     {"smooth", VALUE_WORD, AT(Shape, as.mesh.smooth), .words = SMOOTH_WORDS},
+    {"terminator", VALUE_SWITCH, AT(Shape, as.mesh.terminator)},
     COMMON,
 };
 

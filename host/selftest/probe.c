@@ -22,7 +22,7 @@ struct Probe {
 
 static FeatureSet features_of_probe(void)
 {
-    static const Feature WITHOUT[] = {FEATURE_TRIANGLE_EXTRA, FEATURE_MESH_NORMALS, FEATURE_MESH_UVS,
+    static const Feature WITHOUT[] = {FEATURE_TRIANGLE_EXTRA, FEATURE_MESH_NORMALS, FEATURE_MESH_UVS, FEATURE_TERMINATOR,
                                       FEATURE_EMISSION,       FEATURE_AMBIENT,      FEATURE_BACKGROUND,
                                       FEATURE_BRANCHING,      FEATURE_ORTHOGRAPHIC, FEATURE_SAMPLES};
     FeatureSet set = ((FeatureSet)1 << FEATURE_COUNT) - 1;

@@ -14,7 +14,8 @@ typedef struct {
 static inline SlabTimes slab_times(v3 n, vf low, vf high, const RayLanes *ray)
 {
     SlabTimes s;
-    const vf above_low = plane_height(n, low, ray->org), above_high = plane_height(n, high, ray->org);
+    const vf2 dot = plane_dot(n, ray->org);
+    const vf above_low = plane_height(dot, low), above_high = plane_height(dot, high);
     const vf rate = v3_dot(n, ray->dir);
     const vm parallel = rate == (vf)(0.0f);
     const vm between = (above_low >= (vf)(0.0f)) & (above_high <= (vf)(0.0f));

@@ -40,20 +40,22 @@ static inline ConeReference cone_reference(const PrimitiveLanes *p)
     return r;
 }
 
+static inline vf cone_terms(v3 o, vf radius) { return fma(o.x, o.x, fma(o.y, o.y, radius * radius)); }
+
 static inline RoundSolid cone_solid(const PrimitiveLanes *p, const RayLanes *ray)
 {
     RoundSolid s = round_solid(p, ray);
     const ConeReference reference = cone_reference(p);
-    const v3 d = s.d;
-    v3 o = v3_make(s.o.x, s.o.y, s.o.z - reference.height);
-    const v3 from = o;
-    const vf dd = v3_dot(d, d);
-    vf shift = closest_shift(&o, d, dd, (vf)(0.0f));
-    const vm near = v3_dot(from, from) < 4.0f * v3_dot(o, o);
+    const v3 d = s.d, from = v3_make(s.o.x, s.o.y, s.o.z - reference.height);
+    v3 o = from;
+    const vf slope = -0.5f * p->p1;
+    vf shift = closest_shift(&o, d, v3_dot(d, d), (vf)(0.0f));
+    // What the quadratic is made of, there and here; near the wall the origin is the better place.
+    const vf radius_o = fma(slope, o.z, reference.radius), radius_from = fma(slope, from.z, reference.radius);
+    const vm near = cone_terms(from, radius_from) < FAR_FROM_CENTRE * cone_terms(o, radius_o);
     shift = near ? (vf)(0.0f) : shift;
     o = v3_select(near, from, o);
-    const vf slope = -0.5f * p->p1;
-    const vf radius = fma(slope, o.z, reference.radius), rate = slope * d.z;
+    const vf radius = near ? radius_from : radius_o, rate = slope * d.z;
     const vf rho = sqrt(fma(o.x, o.x, o.y * o.y));
     const vf a = difference_of_products(d.x, d.x, rate, rate) + d.y * d.y;
     const vf b = difference_of_products(o.x, d.x, radius, rate) + o.y * d.y;

@@ -7,7 +7,7 @@
 
 static inline vf intersect_plane(const PrimitiveLanes *p, const RayLanes *ray)
 {
-    const vf t = -plane_height(p->row2, p->p0, ray->org) / v3_dot(p->row2, ray->dir);
+    const vf t = -plane_height(plane_dot(p->row2, ray->org), p->p0) / v3_dot(p->row2, ray->dir);
     return flat_hit(ray, t, t < (vf)(INFINITY));
 }
 

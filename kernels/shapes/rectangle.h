@@ -6,7 +6,7 @@
 
 static inline vf intersect_rectangle(const PrimitiveLanes *p, const RayLanes *ray)
 {
-    const vf t = -plane_height(p->row2, p->p0, ray->org) / v3_dot(p->row2, ray->dir);
+    const vf t = -plane_height(plane_dot(p->row2, ray->org), p->p0) / v3_dot(p->row2, ray->dir);
     const v3 f = v3_fma(ray->dir, t, v3_sub(ray->org, p->c));
     const vf x = v3_dot(p->row0, f), y = v3_dot(p->row1, f);
     return flat_hit(ray, t, (t < (vf)(INFINITY)) & (fabs(x) <= (vf)(1.0f)) & (fabs(y) <= (vf)(1.0f)));

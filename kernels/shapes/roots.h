@@ -6,6 +6,7 @@
 #ifndef CLRT_KERNELS_SHAPES_ROOTS_H
 #define CLRT_KERNELS_SHAPES_ROOTS_H
 
+#include "base/exact.h"
 #include "base/ray.h"
 #include "shapes/surface.h"
 #include "shapes/tangents.h"
@@ -55,7 +56,10 @@ static inline Interval quadratic_roots(vf a, vf b, vf c)
 // to the centre, since there the squares of distances no longer cancel (Haines, Guenther, Akenine-Moeller,
 // "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019). fma rounds the moved origin
 // once, so that the ray stays the same ray. Returns the t of the new origin; dd = |d|^2.
-#define FAR_FROM_CENTRE 2.25f
+//
+// From one and a half radii on t is at least a third of the shift, so that the sum costs t little, and closer by
+// a grazing ray loses less to the squares than one ulp of what went in.
+#define FAR_FROM_CENTRE 2.25f // radii, squared
 static inline vf closest_shift(v3 *o, v3 d, vf dd, vf far2)
 {
     const vm far = v3_dot(*o, *o) >= far2;
@@ -155,13 +159,18 @@ static inline vf fma_rest(vf a, vf b, vf c, vf *rest)
     return sum;
 }
 
-// The same to about one rounding of what is left, however much cancels: on that stands t of a shape far away.
-static inline vf plane_height(v3 plane, vf offset, v3 p)
+// plane.p = hi + lo, but for a few roundings of lo.
+static inline vf2 plane_dot(v3 plane, v3 p)
 {
-    vf rest_x, rest_y;
-    const vf x = fma_rest(plane.x, p.x, -offset, &rest_x);
+    vf rest_y, rest_z;
+    const vf x = plane.x * p.x;
     const vf y = fma_rest(plane.y, p.y, x, &rest_y);
-    return fma(plane.z, p.z, y) + (rest_x + rest_y);
+    const vf z = fma_rest(plane.z, p.z, y, &rest_z);
+    return vf2_make(z, fma(plane.x, p.x, -x) + (rest_y + rest_z));
 }
+
+// plane.p - offset to a rounding or two of what is left, however much cancels: t of shapes far from the origin of
+// the space stands on that. Whatever lies in one plane takes it, so that it has the same t.
+static inline vf plane_height(vf2 dot, vf offset) { return (dot.hi - offset) + dot.lo; }
 
 #endif

@@ -10,34 +10,59 @@ static inline v3 tetrahedron_last_row(const PrimitiveLanes *p)
     return v3_neg(v3_add(v3_add(p->row0, p->row1), p->row2));
 }
 
-// The part of the ray in the half-space row.p + offset >= 0, whose boundary it meets at *t.
-static inline Interval half_space(v3 row, vf offset, const RayLanes *ray, vf *t)
+// The barycentric weights of b, c, d and a at the origin of a ray, and how they grow along it. That of a is what
+// the others leave, so that its row is never rounded.
+typedef struct {
+    vf at[4], rate[4];
+} TetrahedronWeights;
+
+static inline TetrahedronWeights tetrahedron_weights(const PrimitiveLanes *p, const RayLanes *ray)
 {
-    const vf q = plane_height(row, -offset, ray->org);
-    const vf rate = v3_dot(row, ray->dir);
-    const vf meet = -q / rate;
-    const vm parallel = rate == (vf)(0.0f);
-    const vm rising = rate > (vf)(0.0f);
+    const vf2 b = plane_dot(p->row0, ray->org), c = plane_dot(p->row1, ray->org);
+    const vf2 d = plane_dot(p->row2, ray->org);
+    const vf2 first = two_sum(b.hi, c.hi), second = two_sum(first.hi, d.hi);
+    const vf2 sum = vf2_make(second.hi, (first.lo + second.lo) + ((b.lo + c.lo) + d.lo));
+    const v3 rate = canonical_direction(p, ray->dir);
+    TetrahedronWeights w;
+    w.at[0] = plane_height(b, -p->c.x);
+    w.at[1] = plane_height(c, -p->c.y);
+    w.at[2] = plane_height(d, -p->c.z);
+    w.at[3] = -plane_height(sum, p->p0);
+    w.rate[0] = rate.x;
+    w.rate[1] = rate.y;
+    w.rate[2] = rate.z;
+    w.rate[3] = -((rate.x + rate.y) + rate.z);
+    return w;
+}
+
+// The part of the ray where weight i is not negative, with the face at *t.
+static inline Interval half_space(const TetrahedronWeights *w, int i, vf *t)
+{
+    const vf meet = -w->at[i] / w->rate[i];
+    const vm parallel = w->rate[i] == (vf)(0.0f);
+    const vm rising = w->rate[i] > (vf)(0.0f);
     *t = parallel ? (vf)(INFINITY) : meet;
     const Interval crossed = interval_make(rising ? meet : (vf)(-INFINITY), rising ? (vf)(INFINITY) : meet);
-    const Interval along = interval_select(q >= (vf)(0.0f), interval_all(), interval_none());
+    const Interval along = interval_select(w->at[i] >= (vf)(0.0f), interval_all(), interval_none());
     return interval_select(parallel, along, crossed);
 }
 
 static inline vf intersect_tetrahedron(const PrimitiveLanes *p, const RayLanes *ray)
 {
+    const TetrahedronWeights w = tetrahedron_weights(p, ray);
     vf t;
-    Interval solid = half_space(p->row0, p->c.x, ray, &t);
-    solid = interval_common(half_space(p->row1, p->c.y, ray, &t), solid);
-    solid = interval_common(half_space(p->row2, p->c.z, ray, &t), solid);
-    solid = interval_common(half_space(tetrahedron_last_row(p), p->p0, ray, &t), solid);
+    Interval solid = half_space(&w, 0, &t);
+    solid = interval_common(half_space(&w, 1, &t), solid);
+    solid = interval_common(half_space(&w, 2, &t), solid);
+    solid = interval_common(half_space(&w, 3, &t), solid);
     return solid_hit(ray, solid);
 }
 
-static inline void tetrahedron_offer(FaceChoice *best, const RayLanes *ray, vf t, v3 row, vf offset, int face)
+static inline void tetrahedron_offer(FaceChoice *best, const TetrahedronWeights *w, int weight, vf t, v3 row,
+                                     vf offset, int face)
 {
     vf face_t;
-    half_space(row, offset, ray, &face_t);
+    half_space(w, weight, &face_t);
     face_offer(best, t, face_t, v3_neg(row), offset, face);
 }
 
@@ -60,10 +85,11 @@ static inline void surface_tetrahedron(const PrimitiveLanes *p, const RayLanes *
     best.offset = (vf)(0.0f);
     best.face = (vi)(0);
     // In the order abc, abd, acd, bcd: opposite to d, c, b, a.
-    tetrahedron_offer(&best, ray, t, p->row2, p->c.z, 0);
-    tetrahedron_offer(&best, ray, t, p->row1, p->c.y, 1);
-    tetrahedron_offer(&best, ray, t, p->row0, p->c.x, 2);
-    tetrahedron_offer(&best, ray, t, tetrahedron_last_row(p), p->p0, 3);
+    const TetrahedronWeights w = tetrahedron_weights(p, ray);
+    tetrahedron_offer(&best, &w, 2, t, p->row2, p->c.z, 0);
+    tetrahedron_offer(&best, &w, 1, t, p->row1, p->c.y, 1);
+    tetrahedron_offer(&best, &w, 0, t, p->row0, p->c.x, 2);
+    tetrahedron_offer(&best, &w, 3, t, tetrahedron_last_row(p), p->p0, 3);
     surface_face(&best, ray, t, s);
 #if HAS_UV
     const vf b = plane_distance(p->row0, -p->c.x, s->p), c = plane_distance(p->row1, -p->c.y, s->p);

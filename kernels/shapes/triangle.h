@@ -22,7 +22,7 @@ static inline vf intersect_triangle(const PrimitiveLanes *p, const RayLanes *ray
     const TriangleWeights w = triangle_weights(p, ray);
     const vf mean = woop_distance(&w);
     const vf facing = v3_dot(p->c, ray->dir);
-    const vf plane = -plane_height(p->c, p->p1, ray->org) / facing;
+    const vf plane = -plane_height(plane_dot(p->c, ray->org), p->p1) / facing;
     const v3 n = v3_abs(p->c);
     const vf reach = vf_max(fabs(w.a_z), vf_max(fabs(w.b_z), fabs(w.c_z)));
     const vf spread = v3_dot(n, v3_fma(v3_abs(ray->dir), fabs(mean), v3_abs(ray->org))) + fabs(p->p1);

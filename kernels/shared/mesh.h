@@ -22,6 +22,7 @@ LAYOUT_OFFSET(TriangleBlock, face, 288);
 #define MESH_MIRRORED 1u // baked under a mirroring transform: the geometric normal is -(b-a) x (c-a)
 #define MESH_NORMALS 2u  // corner_normals counts
 #define MESH_UVS 4u      // corner_uvs counts
+#define MESH_TERMINATOR 8u // with MESH_NORMALS: shadow rays start above faces that bulge
 
 // Faces from `first` up to that of the next run. Of face f of the run, corner k (0..2) has the normal of index
 // mesh_indices[corner_normals + 3 (f - first) + k], and in the same way its uv; NO_INDEX there: none.

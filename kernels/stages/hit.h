@@ -13,6 +13,9 @@
 #if HAS_NORMAL_MAP
 #include "shapes/tangents.h"
 #endif
+#if HAS_TERMINATOR
+#include "shapes/terminator.h"
+#endif
 #include "texture/texture.h"
 #if HAS_PBR
 #include "material/pbr.h"
@@ -69,6 +72,10 @@ typedef struct {
     v3 point;     // in render space
     v3 error;     // bound of the error of each coordinate of point
     v3 ng, ns;    // unit, turned to the ray's origin
+#if HAS_TERMINATOR
+    v3 horizon;   // unit: light from below the plane with this normal does not count
+    v3 raise;     // the way from point to where shadow rays start; not to below the face
+#endif
     vm inside;    // the ray met the surface from its inner side
     vi primitive; // a valid index or slot in every lane, as in BatchHits
     Row material;
@@ -174,6 +181,15 @@ static inline vi mesh_corner(const MeshHit *m, int field, vm has)
 #endif
 
 #if HAS_MESH_NORMALS
+// The normal at corner k of a face whose corners begin there, in the lanes that have one; others give any.
+static inline v3 mesh_corner_normal(const Shading *shading, vi corner, int k, vm has)
+{
+    const vi index = vi_gather(shading->mesh_indices, corner + k);
+    const vi at = has ? 3 * index : (vi)(0);
+    return v3_make(vf_gather(shading->mesh_normals, at), vf_gather(shading->mesh_normals, at + 1),
+                   vf_gather(shading->mesh_normals, at + 2));
+}
+
 // The mean of the normals at the face's vertices, not of unit length, in the lanes that have them.
 OUTLINE void mesh_normal(const Shading *shading, const MeshHit *m, const SurfaceLanes *surface, v3 *normal)
 {
@@ -184,14 +200,48 @@ OUTLINE void mesh_normal(const Shading *shading, const MeshHit *m, const Surface
     const vi first = vi_gather(shading->mesh_indices, corner);
     has = has & (first != (vi)(-1));
     v3 n[3];
-    for (int k = 0; k < 3; k++) {
-        const vi index = vi_gather(shading->mesh_indices, corner + k);
-        const vi at = has ? 3 * index : (vi)(0);
-        n[k] = v3_make(vf_gather(shading->mesh_normals, at), vf_gather(shading->mesh_normals, at + 1),
-                       vf_gather(shading->mesh_normals, at + 2));
-    }
+    for (int k = 0; k < 3; k++)
+        n[k] = mesh_corner_normal(shading, corner, k, has);
     const vf b0 = (1.0f - surface->b1) - surface->b2;
     *normal = v3_select(has, v3_fma(n[2], surface->b2, v3_fma(n[1], surface->b1, v3_scale(n[0], b0))), *normal);
+}
+#endif
+
+#if HAS_TERMINATOR
+// surface: in the space of the hierarchy, where the ray has the direction dir.
+OUTLINE Raise mesh_raise(const Shading *shading, const MeshHit *m, const SurfaceLanes *surface, v3 dir)
+{
+    Raise raise;
+    vm has = mesh_flag(m, MESH_TERMINATOR);
+    raise.bulges = (vm)(0);
+    if (!vm_any(has))
+        return raise;
+    const vi corner = mesh_corner(m, 5, has);
+    has = has & (vi_gather(shading->mesh_indices, corner) != (vi)(-1));
+    for (int k = 0; k < 3; k++)
+        raise.normal[k] = mesh_corner_normal(shading, corner, k, has);
+    const vf side = v3_dot(dir, surface->ng) > (vf)(0.0f) ? (vf)(-1.0f) : (vf)(1.0f);
+    const vf b1 = surface->b1, b2 = surface->b2;
+    raise_vertex(&raise, 0, m->face.a, (1.0f - b1) - b2, surface, side);
+    raise_vertex(&raise, 1, m->face.b, b1, surface, side);
+    raise_vertex(&raise, 2, m->face.c, b2, surface, side);
+    raise.bulges = raise.bulges & has;
+    return raise;
+}
+
+// Light counts above the horizon of the interpolated normal `smooth` in the lanes that bulge, and shadow rays
+// start on the way that `raise` tells of, unless it leads below the face.
+static inline void hit_raise(Hit *hit, const Raise *raise, v3 smooth)
+{
+    hit->horizon = hit->ng;
+    hit->raise = v3_splat(0.0f);
+    if (!vm_any(raise->bulges))
+        return;
+    const v3 turned = v3_select(v3_dot(smooth, hit->ng) < (vf)(0.0f), v3_neg(smooth), smooth);
+    const v3 way = raise_way(raise);
+    const vf up = v3_dot(way, hit->ng);
+    hit->horizon = v3_select(raise->bulges, turned, hit->ng);
+    hit->raise = v3_select(raise->bulges & (up >= (vf)(0.0f)) & (up < (vf)(INFINITY)), way, hit->raise);
 }
 #endif
 
@@ -402,10 +452,17 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
 #if HAS_CHECKER3D
     hit.at.object = object_point(shading->frames, target.frame, surface.p, surface.ng);
 #endif
+#if HAS_TERMINATOR
+    Raise raise = mesh_raise(shading, &target.face, &surface, ray.dir);
+#endif
 #if HAS_INSTANCES
     placement_leave(&placement, org, dir, t, &surface);
 #if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
     normal = v3_select(placement.placed, carry_normal(&placement.map, normal), normal);
+#endif
+#if HAS_TERMINATOR
+    for (int k = 0; k < 3 && vm_any(raise.bulges); k++)
+        raise.normal[k] = v3_select(placement.placed, carry_normal(&placement.map, raise.normal[k]), raise.normal[k]);
 #endif
 #endif
     hit.point = surface.p;
@@ -417,6 +474,9 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     v3 ns = surface.ng;
 #if HAS_TRIANGLE_EXTRA || HAS_MESH_NORMALS
     ns = v3_normalize(normal);
+#endif
+#if HAS_TERMINATOR
+    hit_raise(&hit, &raise, ns);
 #endif
 #if HAS_NORMAL_MAP
     ns = mapped_normal(&hit, shading, &surface, ns);

@@ -27,6 +27,16 @@ typedef struct {
     bool opening, closing;
 } LightPass;
 
+// Light from directions below this plane through the hit does not count.
+static inline v3 hit_horizon(const Hit *hit)
+{
+#if HAS_TERMINATOR
+    return hit->horizon;
+#else
+    return hit->ng;
+#endif
+}
+
 static inline v3 hit_diffuse(const Hit *hit, const Shading *shading)
 {
     return hit_color(hit, shading, MATERIAL_DIFFUSE, row_int(&hit->material, MATERIAL_DIFFUSE_TEXTURE));
@@ -104,7 +114,7 @@ OUTLINE PbrLanes hit_pbr(const Hit *hit, const Shading *shading)
 OUTLINE v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
 {
     const vf cosine = v3_dot(hit->ns, light->dir);
-    const vm lit = (cosine > (vf)(0.0f)) & (v3_dot(hit->ng, light->dir) > (vf)(0.0f));
+    const vm lit = (cosine > (vf)(0.0f)) & (v3_dot(hit_horizon(hit), light->dir) > (vf)(0.0f));
     v3 reflected = v3_scale(diffuse, cosine);
 #if HAS_SPECULAR
     const v3 specular = row_real3(&hit->material, MATERIAL_SPECULAR);
@@ -155,7 +165,7 @@ static inline LightRay occlusion_ray(const Hit *hit, v3 ambient, global const Li
     ray.dir = cosine_direction(hit->ns, u.x, u.y);
     ray.length = (vf)(light->size);
     const v3 share = v3_scale(ambient, (vf)(light->intensity.x));
-    ray.gain = v3_select(v3_dot(hit->ng, ray.dir) > (vf)(0.0f), share, v3_splat(0.0f));
+    ray.gain = v3_select(v3_dot(hit_horizon(hit), ray.dir) > (vf)(0.0f), share, v3_splat(0.0f));
     return ray;
 }
 #endif
@@ -184,7 +194,8 @@ static inline LightRay environment_ray(const Hit *hit, const Environment *enviro
     ray.length = (vf)(INFINITY);
     const v3 radiance = v3_select(by_map, drawn.radiance, seen.radiance);
     const vf cosine = v3_dot(hit->ns, ray.dir);
-    const vm lit = hit_is_pbr(hit) & (cosine > (vf)(0.0f)) & (v3_dot(hit->ng, ray.dir) > (vf)(0.0f));
+    const vm above = v3_dot(hit_horizon(hit), ray.dir) > (vf)(0.0f);
+    const vm lit = hit_is_pbr(hit) & (cosine > (vf)(0.0f)) & above;
     const vf by_material = lit ? pbr_pdf(&hit->pbr, hit->ns, to_eye, ray.dir) : (vf)(0.0f);
     const vf density = (by_map ? drawn.density : seen.density) + by_material;
     const vf weight = cosine * (2.0f * light->intensity.x) / (density > (vf)(0.0f) ? density : (vf)(1.0f));
@@ -219,9 +230,29 @@ OUTLINE LightRay light_ray(const Hit *hit, const Shading *shading, v3 diffuse, v
     ray.dir = sample.dir;
     ray.gain = shade_light(hit, diffuse, &sample);
     ray.length = sample.distance * LIGHT_NEARER;
+#if HAS_TERMINATOR
+    // From where the ray starts to the same place at the same t.
+    const v3 bent = v3_sub(ray.dir, v3_scale(hit->raise, (vf)(1.0f) / sample.distance));
+    ray.dir = v3_select(sample.distance > (vf)(0.0f), bent, ray.dir);
+#endif
 #endif
     return ray;
 }
+
+#if HAS_SHADOWS
+static inline v3 shadow_origin(const Hit *hit)
+{
+#if HAS_TERMINATOR
+    // A point that does not move keeps its bound to the bit, so that it starts where it does without the feature.
+    const v3 way = hit->raise, point = v3_add(hit->point, way);
+    const vm moved = v3_dot(way, way) > (vf)(0.0f);
+    const v3 rounded = v3_fma(v3_add(v3_abs(point), v3_abs(way)), (vf)(4.0f * ROUNDING), hit->error);
+    return offset_origin(point, v3_select(moved, rounded, hit->error), hit->ng, hit->ng);
+#else
+    return offset_origin(hit->point, hit->error, hit->ng, hit->ng);
+#endif
+}
+#endif
 
 // Light of the pass: queued as shadow rays, or added at once where nothing casts shadows. Returns FLAGS.
 OUTLINE vi shade_lights(const State *s, const Slots *slots, const Hit *hit, const Shading *shading,
@@ -310,8 +341,7 @@ OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *s
 #if HAS_SHADOWS
                 const vi self = hit.primitive * 2 + (hit.inside ? (vi)(1) : (vi)(0));
                 state_store_int(s, SHADOW_SELF, &slots, self, shaded);
-                const v3 shadow_org = offset_origin(hit.point, hit.error, hit.ng, hit.ng);
-                state_store3(s, SHADOW_ORG, &slots, shadow_org, shaded);
+                state_store3(s, SHADOW_ORG, &slots, shadow_origin(&hit), shaded);
 #endif
             }
 #if HAS_LIGHTS

@@ -3,7 +3,7 @@
 
     textures.py FOLDER
 
-The same command writes the same files. Surfaces repeat without a seam. A normal map has its x along u and its y
+The same command makes the same pixels. Surfaces repeat without a seam. A normal map has its x along u and its y
 along v, upward in the picture. An environment is a map of latitude and longitude, looking along -z in its middle.
 """
 import math

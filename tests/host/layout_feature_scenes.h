@@ -53,6 +53,8 @@ static const FeatureScenes feature_scenes[] = {
     {FEATURE_MESH, SHAPE_BALL SHAPE_SHEET("grid1", ""), SHAPE_BALL},
     {FEATURE_MESH_NORMALS, SHAPE_SHEET("grid1_normals", ""),
      SHAPE_SHEET("grid1_normals", "smooth off")},
+    {FEATURE_TERMINATOR, SHAPE_SHEET("grid1_normals", "terminator on") LIGHT_LAMP,
+     SHAPE_SHEET("grid1_normals", "") LIGHT_LAMP},
     {FEATURE_MESH_UVS,
      "texture t checker { scale 8 8 }\n" MATERIAL_M("diffuse t")
      SHAPE_SHEET("grid1_uvs", "material m"),

@@ -68,6 +68,18 @@ static void test_normals(void **state)
     l = layout_good("mesh { file \"grid9 normals\" scale 1e-36 }\n");
     check_normals(l, &l->mesh_runs[0], 9, affine_scale((Vec3){1e-36, 1e-36, 1e-36}));
     layout_destroy(l);
+    // Shadow rays start above smooth faces only, and where there is light.
+    l = layout_good("mesh { file \"grid9 normals\" terminator on }\nlight directional { direction 0 -1 0 }\n");
+    assert_int_equal(l->mesh_runs[0].flags, MESH_NORMALS | MESH_TERMINATOR);
+    assert_true(features_have(l->features, FEATURE_TERMINATOR));
+    layout_destroy(l);
+    l = layout_good("mesh { file \"grid9 normals\" terminator on }\n");
+    assert_false(features_have(l->features, FEATURE_TERMINATOR));
+    layout_destroy(l);
+    l = layout_good("mesh { file \"grid9 normals\" terminator on smooth off }\nlight directional { direction 0 -1 0 }\n");
+    assert_int_equal(l->mesh_runs[0].flags, 0);
+    assert_false(features_have(l->features, FEATURE_TERMINATOR));
+    layout_destroy(l);
     // Flat where it is asked for.
     l = layout_good("mesh { file \"grid9 normals\" smooth off }\n");
     assert_int_equal(l->mesh_runs[0].flags, 0);

@@ -137,16 +137,21 @@ static void test_mesh(void **state)
 {
     (void)state;
     Parsed p = parse_good("mesh { file \"a.obj\" } mesh { file \"/b.obj\" smooth on }\n"
-                          "mesh { smooth off file \"c\" }");
+                          "mesh { smooth off file \"c\" } mesh { file \"d\" terminator on }\n"
+                          "mesh { file \"d\" terminator off }");
     assert_string_equal(p.scene->shapes[0].as.mesh.file, "a.obj");
     assert_string_equal(p.scene->shapes[1].as.mesh.file, "/b.obj");
     assert_int_equal(p.scene->shapes[0].as.mesh.smooth, -1);
     assert_int_equal(p.scene->shapes[1].as.mesh.smooth, 1);
     assert_int_equal(p.scene->shapes[2].as.mesh.smooth, 0);
+    for (u32 i = 0; i < 5; i++)
+        assert_true(p.scene->shapes[i].as.mesh.terminator == (i == 3));
     assert_int_equal(p.scene->shapes[2].as.mesh.file_at.line, 2);
     assert_int_equal(p.scene->shapes[2].as.mesh.file_at.column, 19);
     assert_null(p.scene->shapes[0].as.mesh.mesh); // files are not the parser's
     parsed_end(&p);
+    expect_error("mesh { file \"a\" terminator yes }", "1:28: 'terminator' takes on or off, not 'yes'");
+    expect_error("sphere { center 0 0 0 radius 1 terminator on }", "1:32: unknown property 'terminator' of sphere");
     expect_error("mesh { file \"\" }", "1:13: the file name is empty");
 }
 

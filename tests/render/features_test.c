@@ -36,6 +36,7 @@ static const struct {
     {FEATURE_TRIANGLE_EXTRA, {"hit_interpolate", NULL, NULL}},
     {FEATURE_MESH, {"test_block", "mesh_hit_make", "mesh_runs"}},
     {FEATURE_MESH_NORMALS, {"mesh_normal", "mesh_normals", NULL}},
+    {FEATURE_TERMINATOR, {"mesh_raise", "raise_way", "horizon"}},
     {FEATURE_MESH_UVS, {"mesh_uv", "mesh_uvs", NULL}},
     {FEATURE_UV, {"surface_uv", "hit.at.u", NULL}},
     {FEATURE_CHECKER, {"cell_parity(at->u_whole", NULL, NULL}},

@@ -78,7 +78,7 @@ static const char scene_mirror[] =
     "instance pair { scale 1 2 0.5 rotate A(1 1 0) 30 translate P(1 1 2.5) material b }\n"
     // What a file holds is mirrored by the first scale.
     "mesh { file \"vase.obj\" scale L(0.75 0.75 0.75) rotate A(0.25 1 0.5) 35 translate P(-1.25 0.25 3)\n"
-    "    material a }\n"
+    "    terminator on material a }\n"
     "mesh { file \"gem.obj\" smooth on scale L(0.5 0.5 0.5) translate P(2 0.5 2.75) material glass }\n"
     "object stones { mesh { file \"gem.obj\" scale L(0.5 0.5 0.5) translate L(0.25 0.25 0) } }\n"
     "instance stones { scale 0.75 1 0.5 rotate A(1 1 0) 30 translate P(-2.25 1.75 1) }\n"

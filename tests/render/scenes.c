@@ -89,7 +89,12 @@ const char scene_studio[] =
     "sphere { center P(-1.5 0.75 0) radius ~0.75 material gold }\n"
     "sphere { center P(0 0.5 1.5) radius ~0.5 material resin }\n"
     "box { center P(1.25 0.5 -0.5) size ~1 ~1 ~1 material chrome }\n"
-    "sphere { center P(1.25 0.375 1.25) radius ~0.375 material clay }\n";
+    "sphere { center P(1.25 0.375 1.25) radius ~0.375 material clay }\n"
+    "mesh { file \"vase.obj\" terminator on scale ~0.5 rotate A(0 0 1) 20 translate P(-0.5 0.25 2)\n"
+    "    material clay }\n"
+    "object cup { mesh { file \"vase.obj\" smooth on terminator on scale ~0.5 } }\n"
+    "instance cup { scale 1 1.5 0.75 rotate A(0 1 0) 20 translate P(1 0 2.25) material stone }\n"
+    "instance cup { scale 0.75 rotate A(1 0 0) 160 translate P(-1.5 1.25 2) material gold }\n";
 
 // A marked triple at *text, behind its letter and parenthesis; moves *text behind it.
 static Vec3 read_triple(const char **text)
