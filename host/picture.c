@@ -145,7 +145,7 @@ static bool identify(Picture *picture, Error *error)
         .width = picture->width,
         .height = picture->height,
     };
-    const bool wanted = options->stats || !output_ignores_display_settings(options->out);
+    const bool wanted = options->stats || output_takes_texts(options->out);
     return !wanted || scene_fingerprint(picture->scene, &picture->identity.scene_hash, error);
 }
 

@@ -52,7 +52,8 @@ static bool list_files(Loader *loader)
 {
     for (u32 i = 0; i < loader->scene->shape_count; ++i) {
         const Shape *shape = &loader->scene->shapes[i];
-        if (is_mesh(shape) && !named_files_add(&loader->named, shape->as.mesh.file, shape->as.mesh.file_at, NULL))
+        if (is_mesh(shape) &&
+            !named_files_add(&loader->named, shape->as.mesh.file, shape->as.mesh.file_at, NULL))
             return false;
     }
     loader->files = arena_alloc(loader->scratch, loader->named.count, sizeof *loader->files);

@@ -69,10 +69,11 @@ bool import_available(void);
 
 // Reads the file at path, whose format is told by its suffix and its first bytes. Its nodes are placed by
 // their transforms; mirrored ones have their corners turned round, so that outward stays outward. Polygons
-// are fans from the first corner; points, lines, cameras, lights, bones, colours of vertices and uvs but one
-// set are ignored; uvs are those of the material's maps. Where a file gives every corner a vertex of its own (STL), positions that are equal are
-// joined, so that normals can be made; the normals of STL's facets are ignored, which say nothing new.
-// Fails with ERROR_SCENE, or ERROR_MEMORY; the text is the reason alone, *file is empty then.
+// are fans from the first corner; uvs are those that the material's maps want; points, lines, cameras,
+// lights, bones, colours of vertices and other uvs are ignored. Where a file gives every corner a vertex of
+// its own (STL), positions that are equal are joined, so that normals can be made; the normals of STL's
+// facets are ignored, which say nothing new. Fails with ERROR_SCENE, or ERROR_MEMORY; the text is the reason
+// alone, *file is empty then.
 bool import_read(const char *path, ImportFile *file, Error *error);
 
 // Frees what file holds and zeroes it; a zeroed ImportFile is fine. A caller that keeps file->mesh zeroes it

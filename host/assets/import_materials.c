@@ -53,13 +53,15 @@ static const ImportUvs PLAIN_UVS = {0, {{1, 0, 0}, {0, 1, 0}}};
 
 // The uvs of a texture. glTF's transform scales, turns counter-clockwise and moves, with v downwards. The
 // library moves to another origin, about which it turns; that is undone here.
-static ImportUvs uvs_of(const Assimp *assimp, const struct aiMaterial *from, enum aiTextureType type, unsigned set)
+static ImportUvs uvs_of(const Assimp *assimp, const struct aiMaterial *from, enum aiTextureType type,
+                        unsigned set)
 {
     ImportUvs uvs = PLAIN_UVS;
     ai_real t[5]; // translation, scale, rotation
     unsigned count = 5;
     uvs.set = set;
-    if (assimp->material_numbers(from, AI_MATKEY_UVTRANSFORM(type, 0), t, &count) != aiReturn_SUCCESS || count != 5)
+    if (assimp->material_numbers(from, AI_MATKEY_UVTRANSFORM(type, 0), t, &count) != aiReturn_SUCCESS ||
+        count != 5)
         return uvs;
     for (u32 i = 0; i < 5; ++i)
         if (!isfinite(t[i]))
@@ -87,14 +89,16 @@ static u32 left_out_of(const Assimp *assimp, const struct aiMaterial *from)
     unsigned count = 1;
     const Vec3 sheen = color_of(assimp, from, AI_MATKEY_SHEEN_COLOR_FACTOR, 0);
     const bool layers =
-        number_of(assimp, from, AI_MATKEY_CLEARCOAT_FACTOR, 0) > 0 || sheen.x > 0 || sheen.y > 0 || sheen.z > 0 ||
+        sheen.x > 0 || sheen.y > 0 || sheen.z > 0 ||
+        number_of(assimp, from, AI_MATKEY_CLEARCOAT_FACTOR, 0) > 0 ||
         number_of(assimp, from, AI_MATKEY_GLOSSINESS_FACTOR, -1) >= 0 ||
         assimp->texture(from, AI_MATKEY_TRANSMISSION_TEXTURE, &path, NULL, NULL, NULL, NULL, NULL, NULL) ==
             aiReturn_SUCCESS ||
         (assimp->material_whole(from, AI_MATKEY_SHADING_MODEL, &shading, &count) == aiReturn_SUCCESS &&
          shading == aiShadingMode_NoShading);
-    const bool blended = assimp->material_string(from, AI_MATKEY_GLTF_ALPHAMODE, &alpha) == aiReturn_SUCCESS &&
-                         strcmp(alpha.data, "OPAQUE") != 0;
+    const bool blended =
+        assimp->material_string(from, AI_MATKEY_GLTF_ALPHAMODE, &alpha) == aiReturn_SUCCESS &&
+        strcmp(alpha.data, "OPAQUE") != 0;
     return (layers ? 1u << IMPORT_LAYERS : 0) | (blended ? 1u << IMPORT_ALPHA : 0);
 }
 
@@ -120,40 +124,53 @@ static char *file_of(const char *uri)
     return name;
 }
 
-// Of the first of two types that the library has a texture of. *mapped: there was one in the material before. Returns
-static bool read_texture(const Assimp *assimp, const struct aiMaterial *from, const enum aiTextureType types[2],
-                         const ImportFile *file, ImportMaterial *material, ImportTexture *texture, bool *mapped)
+// What a texture that the library has of the type is looked up with.
+static void read_lookup(const Assimp *assimp, const struct aiMaterial *from, enum aiTextureType type,
+                        ImportTexture *texture, u32 *left_out, ImportUvs *uvs)
 {
+    struct aiString path;
+    unsigned set = 0, count = 1;
+    int filter = 0;
+    enum aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+    assimp->texture(from, type, 0, &path, NULL, &set, NULL, NULL, modes, NULL);
+    if (assimp->material_whole(from, AI_MATKEY_GLTF_MAPPINGFILTER_MAG(type, 0), &filter, &count) ==
+        aiReturn_SUCCESS)
+        texture->nearest = filter == FILTER_NEAREST_GL;
+    if (modes[0] != aiTextureMapMode_Wrap || modes[1] != aiTextureMapMode_Wrap)
+        *left_out |= 1u << IMPORT_WRAP;
+    *uvs = uvs_of(assimp, from, type, set);
+    // The one is only given for normal maps, the other for occlusion.
+    texture->fade = 1 - number_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0), 1) *
+                            share_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_STRENGTH(type, 0), 1);
+}
+
+// Of the first of two types that the library has a texture of. *mapped: the material has one already. Returns
+// false where memory is exhausted.
+static bool read_texture(const Assimp *assimp, const struct aiMaterial *from,
+                         const enum aiTextureType types[2], const ImportFile *file, ImportMaterial *material,
+                         ImportTexture *texture, bool *mapped)
+{
+    struct aiString path;
+    ImportUvs uvs;
+    u32 i = 0;
     texture->image = -1;
-    for (u32 i = 0; i < 2; ++i) {
-        struct aiString path;
-        unsigned uvs = 0, count = 1;
-        int filter = 0;
-        enum aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-        if (assimp->texture(from, types[i], 0, &path, NULL, &uvs, NULL, NULL, modes, NULL) != aiReturn_SUCCESS)
-            continue;
-        if (assimp->material_whole(from, AI_MATKEY_GLTF_MAPPINGFILTER_MAG(types[i], 0), &filter, &count) ==
-            aiReturn_SUCCESS)
-            texture->nearest = filter == FILTER_NEAREST_GL;
-        // The one is only given for normal maps, the other for occlusion.
-        texture->fade = 1 - number_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_SCALE(types[i], 0), 1) *
-                                share_of(assimp, from, AI_MATKEY_GLTF_TEXTURE_STRENGTH(types[i], 0), 1);
-        if (modes[0] != aiTextureMapMode_Wrap || modes[1] != aiTextureMapMode_Wrap)
-            material->left_out |= 1u << IMPORT_WRAP;
-        const ImportUvs own = uvs_of(assimp, from, types[i], uvs);
-        if (!*mapped)
-            material->uvs = own;
-        else if (!same_uvs(&own, &material->uvs))
-            material->left_out |= 1u << IMPORT_OTHER_UVS;
-        *mapped = true;
-        if (path.data[0] != '*') {
-            texture->file = file_of(path.data);
-            return texture->file != NULL;
-        }
-        const unsigned long image = strtoul(path.data + 1, NULL, 10);
-        texture->image = image < file->image_count ? (i32)image : -1;
+    while (i < 2 && assimp->texture(from, types[i], 0, &path, NULL, NULL, NULL, NULL, NULL, NULL) !=
+                        aiReturn_SUCCESS)
+        ++i;
+    if (i == 2)
         return true;
+    read_lookup(assimp, from, types[i], texture, &material->left_out, &uvs);
+    if (*mapped && !same_uvs(&uvs, &material->uvs))
+        material->left_out |= 1u << IMPORT_OTHER_UVS;
+    if (!*mapped)
+        material->uvs = uvs;
+    *mapped = true;
+    if (path.data[0] != '*') {
+        texture->file = file_of(path.data);
+        return texture->file != NULL;
     }
+    const unsigned long image = strtoul(path.data + 1, NULL, 10);
+    texture->image = image < file->image_count ? (i32)image : -1;
     return true;
 }
 

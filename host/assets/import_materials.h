@@ -7,8 +7,8 @@
 
 #ifdef CLRT_ASSIMP
 
-// Fills the materials and images of *file from the scene that the library has made of the file at path. Fails with
-// ERROR_MEMORY; import_materials_destroy frees what is there.
+// Fills the materials and images of *file from the scene that the library has made of the file at path. Fails
+// with ERROR_MEMORY; import_materials_destroy frees what is there.
 bool import_materials(const Assimp *assimp, const struct aiScene *scene, const char *path, ImportFile *file,
                       Error *error);
 

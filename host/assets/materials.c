@@ -120,12 +120,15 @@ static Material phong_of(const MtlMaterial *mtl)
     return material;
 }
 
-// The texture of a file that a library names, where it names one.
+// The texture of a file that a library names, where it names one; a backslash is a slash from elsewhere.
 static bool add_map(const MaterialContext *context, const char *library, const char *name, i32 *index)
 {
     if (!name)
         return true;
-    const Texture texture = {.file = path_beside(context->arena, library, name),
+    char *file = arena_copy_text(context->arena, name, strlen(name));
+    for (char *at = file; at && (at = strchr(at, '\\'));)
+        *at = '/';
+    const Texture texture = {.file = file ? path_beside(context->arena, library, file) : NULL,
                              .named_by = arena_copy_text(context->arena, library, strlen(library))};
     return texture.named_by && add_texture(context, texture, index);
 }
@@ -206,7 +209,8 @@ typedef struct Import {
 } Import;
 
 // The texture of a map, where there is one; channel: what a number reads.
-static bool add_import_map(const Import *import, const ImportMaterial *from, ImportMap kind, u32 channel, i32 *index)
+static bool add_import_map(const Import *import, const ImportMaterial *from, ImportMap kind, u32 channel,
+                           i32 *index)
 {
     const MaterialContext *context = import->context;
     const ImportTexture *map = &from->maps[kind];
@@ -253,7 +257,8 @@ static void report_left_out(const MaterialContext *context, const ImportFile *fi
         [IMPORT_WRAP] = "textures that are clamped or mirrored repeat",
         [IMPORT_OTHER_UVS] = "all maps are looked up by the coordinates of the first",
         [IMPORT_ALPHA] = "alpha is ignored",
-        [IMPORT_LAYERS] = "clear coat, sheen, specular and glossiness, unlit and maps of transmission are left out",
+        [IMPORT_LAYERS] = "clear coat, sheen, specular and glossiness, unlit and maps of transmission are "
+                          "left out",
         [IMPORT_VERTEX_COLORS] = "colors of vertices are ignored",
     };
     for (u32 kind = 0; kind < IMPORT_LEFT_OUTS; ++kind) {

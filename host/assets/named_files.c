@@ -11,7 +11,8 @@ void named_file_refuse(const NamedFiles *named, const NamedFile *file, const cha
 {
     if (file->named_by)
         scene_report(named->scene, named->diagnostics, SEVERITY_WARNING, file->at,
-                     "cannot %s '%s', which '%s' names: %s; it is left out", what, file->path, file->named_by, reason);
+                     "cannot %s '%s', which '%s' names: %s; it is left out", what, file->path,
+                     file->named_by, reason);
     else
         scene_report(named->scene, named->diagnostics, SEVERITY_ERROR, file->at, "cannot %s '%s': %s", what,
                      file->path, reason);

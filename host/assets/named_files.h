@@ -27,14 +27,15 @@ typedef struct NamedFiles {
     u32 *path_files; // index of the file, one a path
 } NamedFiles;
 
-// Lists the file at path, named at a place of the scene or by a file that is named there, unless it is there already, by this name or another.
-// Where it is no regular file, that is reported. False where memory is exhausted.
+// Lists the file at path, named at a place of the scene or by a file that is named there, unless it is there
+// already, by this name or another. Where it is no regular file, that is reported. False where memory is
+// exhausted.
 bool named_files_add(NamedFiles *named, const char *path, SourcePos at, const char *named_by);
 
 // The index of the file of a path that was added.
 u32 named_files_find(const NamedFiles *named, const char *path);
 
-// Reports, where the file is named, "cannot WHAT 'PATH': REASON": an error, but a warning where a file names it.
+// Reports, where the file is named, "cannot WHAT 'PATH': REASON": an error; a warning where a file names it.
 void named_file_refuse(const NamedFiles *named, const NamedFile *file, const char *what, const char *reason);
 
 #endif

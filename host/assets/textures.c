@@ -14,15 +14,27 @@ static bool is_within(const Texture *texture)
     return texture->kind == TEXTURE_IMAGE && texture->content;
 }
 
-static bool list_files(NamedFiles *named, const Scene *scene)
+// Those of textures that files name, or that the scene does.
+static bool list_textures(NamedFiles *named, const Scene *scene, bool by_files)
 {
     for (u32 i = 0; i < scene->texture_count; ++i) {
         const Texture *texture = &scene->textures[i];
-        if (is_image(texture) && !named_files_add(named, texture->file, texture->file_at, texture->named_by))
+        if (is_image(texture) && (texture->named_by != NULL) == by_files &&
+            !named_files_add(named, texture->file, texture->file_at, texture->named_by))
             return false;
     }
+    return true;
+}
+
+// What the scene names comes first, so that it cannot be missing without an error.
+static bool list_files(NamedFiles *named, const Scene *scene)
+{
     const Environment *environment = &scene->environment;
-    return !environment->present || named_files_add(named, environment->file, environment->file_at, NULL);
+    if (!list_textures(named, scene, false))
+        return false;
+    if (environment->present && !named_files_add(named, environment->file, environment->file_at, NULL))
+        return false;
+    return list_textures(named, scene, true);
 }
 
 static void repair(const NamedFiles *named, const char *path, SourcePos at, Bitmap *bitmap)
@@ -150,9 +162,10 @@ static void forget_missing(Scene *scene)
 {
     for (u32 i = 0; i < scene->material_count; ++i) {
         Material *material = &scene->materials[i];
-        i32 *const inputs[] = {&material->ambient.texture,    &material->diffuse.texture,  &material->base_color.texture,
-                               &material->metallic.texture,   &material->roughness.texture, &material->occlusion.texture,
-                               &material->emission.texture,   &material->normal_map};
+        i32 *const inputs[] = {&material->ambient.texture,   &material->diffuse.texture,
+                               &material->base_color.texture, &material->metallic.texture,
+                               &material->roughness.texture, &material->occlusion.texture,
+                               &material->emission.texture,  &material->normal_map};
         for (size_t k = 0; k < sizeof inputs / sizeof *inputs; ++k)
             forget(scene, inputs[k]);
     }

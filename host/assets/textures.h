@@ -12,8 +12,8 @@
 // which is the scene's) and the pointers of those that name them. Values that are no radiance (below 0,
 // infinite, NaN) are repaired as in bitmap_repair, with a warning. What is wrong with a file is added to
 // diagnostics at the `file` of the first that names it, and also returns true: where an error was added, the
-// scene may only be released. Returns false where memory for the lists is exhausted. textures_release frees
-// what was read, in each case.
+// scene may only be released. Materials of files go without images that cannot be read, with a warning.
+// Returns false where memory is exhausted. textures_release frees what was read, in each case.
 bool textures_load(Scene *scene, Arena *arena, Diagnostics *diagnostics, Error *error);
 
 // Frees the bitmaps and forgets them; a scene without any is fine.

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "budget/nearest.h"
+#include "layout/records.h"
 
 // For what rounding adds to radiance on a device.
 #define MARGIN (1 + 1e-5)
@@ -18,11 +19,6 @@ typedef struct Weights {
 static f64 channel(Vec3 v, u32 c)
 {
     return c == 0 ? v.x : c == 1 ? v.y : v.z;
-}
-
-static bool black(Vec3 v)
-{
-    return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
 // Why the brightness of this scene is not bounded by rules known here; NULL where it is.
@@ -106,8 +102,22 @@ static f64 greatest_irradiance(const Scene *scene, const f64 *gains, u32 c)
     return sum;
 }
 
+static bool is_phong(const Material *material)
+{
+    return material->kind == MATERIAL_PHONG || material->kind == MATERIAL_BLINN_PHONG;
+}
+
+// A narrow lobe of pbr is as bright as it likes; what it mirrors and lets through is at most all.
+static Weights weights_of_pbr(const Material *material)
+{
+    const bool mirrors = material_mirrors(material), transmits = material_transmits(material);
+    return (Weights){.direct = INFINITY, .reflect = mirrors, .transmit = transmits, .total = mirrors || transmits};
+}
+
 static Weights weights_of(const Scene *scene, const Material *material, f64 irradiance, u32 c)
 {
+    if (!is_phong(material))
+        return weights_of_pbr(material);
     const f64 lit = greatest_input(scene, &material->diffuse, c) + channel(material->specular, c);
     const f64 ambient = times(greatest_input(scene, &material->ambient, c), channel(scene->ambient, c));
     Weights w = {.reflect = channel(material->reflect, c), .transmit = channel(material->transmit, c)};
@@ -124,11 +134,6 @@ typedef struct Channel {
     f64 weight;      // greatest total
     f64 least;       // smallest weight of a ray in this channel, of those that are traced in any
 } Channel;
-
-static bool is_phong(const Material *material)
-{
-    return material->kind == MATERIAL_PHONG || material->kind == MATERIAL_BLINN_PHONG;
-}
 
 // Light may pass surfaces that make it stronger: its irradiance then has no bound.
 static f64 irradiance_of(const Scene *scene, const bool *used, const f64 *gains, u32 c)
@@ -152,14 +157,14 @@ static Channel bound_channel(const Scene *scene, const bool *used, const f64 *ga
             if (used && !used[i])
                 continue;
             const Weights w = weights_of(scene, material, irradiance, c);
-            const f64 direct = is_phong(material) ? w.direct : INFINITY;
-            most = fmax(most, direct + times(w.total, before));
-            bound.limit = fmax(bound.limit, w.total < 1 ? direct / (1 - w.total) : INFINITY);
-            bound.weight = fmax(bound.weight, is_phong(material) ? w.total : INFINITY);
-            if (!black(material->reflect))
-                bound.least = fmin(bound.least, material->fresnel ? 0 : w.reflect);
-            if (!black(material->transmit))
-                bound.least = fmin(bound.least, material->fresnel ? 0 : w.transmit);
+            const bool varying = material->fresnel || !is_phong(material); // with the angle, down to 0
+            most = fmax(most, w.direct + times(w.total, before));
+            bound.limit = fmax(bound.limit, w.total < 1 ? w.direct / (1 - w.total) : INFINITY);
+            bound.weight = fmax(bound.weight, w.total);
+            if (material_mirrors(material))
+                bound.least = fmin(bound.least, varying ? 0 : w.reflect);
+            if (material_transmits(material))
+                bound.least = fmin(bound.least, varying ? 0 : w.transmit);
         }
         bound.before = before;
         bound.radiance = most;
@@ -170,7 +175,7 @@ static Channel bound_channel(const Scene *scene, const bool *used, const f64 *ga
 static bool branches(const Scene *scene, const bool *used)
 {
     for (u32 i = 0; i < scene->material_count; i++)
-        if ((!used || used[i]) && !black(scene->materials[i].reflect) && !black(scene->materials[i].transmit))
+        if ((!used || used[i]) && material_mirrors(&scene->materials[i]) && material_transmits(&scene->materials[i]))
             return true;
     return false;
 }

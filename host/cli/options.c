@@ -244,7 +244,7 @@ void options_print_usage(FILE *stream)
         }
     }
     fputs("\n"
-          "Exit status: 0 done, 1 the scene or a mesh has errors, 2 usage, 3 no device or OpenCL failed,\n"
+          "Exit status: 0 done, 1 the scene, a mesh or an image has errors, 2 usage, 3 no device or OpenCL failed,\n"
           "4 SCENE or OUT could not be read or written, 5 the self-test failed, 6 out of memory,\n"
           "130 interrupted.\n",
           stream);

@@ -72,6 +72,11 @@ bool output_ignores_display_settings(const char *path)
     return format == FORMAT_PFM || format == FORMAT_HDR || format == FORMAT_EXR;
 }
 
+bool output_takes_texts(const char *path)
+{
+    return path_format(path) != FORMAT_PFM;
+}
+
 static bool check_format(Format format, const char *path, Error *error)
 {
     if (format == FORMAT_EXR && !exr_stream_available())

@@ -47,6 +47,9 @@ void output_abort(Output *output);
 // output_commit or output_abort.
 const char *output_temporary_path(const Output *output);
 
+// True for formats that keep OutputOptions.texts.
+bool output_takes_texts(const char *path);
+
 // True for formats that take radiance alone, so that exposure, tone map, encoding and bits say nothing.
 bool output_ignores_display_settings(const char *path);
 

@@ -229,11 +229,35 @@ static void test_textures(void **state)
     assert_int_equal(s->textures[0].encoding, ENCODING_SRGB);
     assert_true(s->textures[0].scale[0] == 1 && s->textures[0].scale[1] == 1);
     release(&p);
-    write_text("u.mtl", "newmtl wood\nmap_Kd away.png\n");
-    write_text("u.obj", SQUARE_VERTICES "mtllib u.mtl\nusemtl wood\nf 1 2 3\n");
-    expect_messages("mesh { file \"u.obj\" }",
-                    "t:1:8: error: cannot read 'away.png': No such file or directory\n"
-                    "    mesh { file \"u.obj\" }\n           ^~~~\n");
+}
+
+// The material goes without it; an image that the scene names itself is an error.
+static void test_missing_textures(void **state)
+{
+    (void)state;
+    write_grey("wood.png");
+    write_text("u.mtl", "newmtl wood\nKd 0.5 0.25 0\nmap_Kd away.png\nnorm .\\wood.png\n"
+                        "newmtl brick\nmap_Kd away.png\nnorm u.mtl\n");
+    write_text("u.obj", SQUARE_VERTICES "mtllib u.mtl\nusemtl wood\nf 1 2 3\nusemtl brick\nf 1 3 4\n");
+    Parsed p = load_text("mesh { file \"u.obj\" }");
+    assert_string_equal(p.messages, "t:1:8: warning: cannot read 'away.png', which 'u.mtl' names: No such file or "
+                                    "directory; it is left out\n"
+                                    "    mesh { file \"u.obj\" }\n           ^~~~\n"
+                                    "t:1:8: warning: cannot read 'u.mtl', which 'u.mtl' names: not a PNG, JPEG, "
+                                    "Radiance HDR or OpenEXR file; it is left out\n"
+                                    "    mesh { file \"u.obj\" }\n           ^~~~\n");
+    const Material *wood = &p.scene->materials[1], *brick = &p.scene->materials[2];
+    assert_int_equal(wood->diffuse.texture, -1);
+    assert_int_equal(wood->ambient.texture, -1);
+    assert_vec(wood->diffuse.color, 0.5, 0.25, 0);
+    assert_non_null(p.scene->textures[wood->normal_map].bitmap); // from where a backslash parts folders
+    assert_int_equal(brick->diffuse.texture, -1);
+    assert_int_equal(brick->normal_map, -1);
+    release(&p);
+    Parsed q = load_text("mesh { file \"u.obj\" } environment { file \"away.png\" }");
+    assert_int_equal(diagnostics_error_count(q.diagnostics), 1);
+    assert_non_null(strstr(q.messages, "error: cannot read 'away.png': No such file"));
+    release(&q);
 }
 
 #define GREY_URI \
@@ -352,7 +376,8 @@ int main(void)
         cmocka_unit_test(test_sharing),       cmocka_unit_test(test_smooth_alone),
         cmocka_unit_test(test_no_meshes),     cmocka_unit_test(test_many),
         cmocka_unit_test(test_materials),     cmocka_unit_test(test_missing_materials),
-        cmocka_unit_test(test_textures),      cmocka_unit_test(test_gltf_materials),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_missing_textures),      cmocka_unit_test(test_gltf_materials),
         cmocka_unit_test(test_bad_files),     cmocka_unit_test(test_errors_inside),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -133,8 +133,8 @@ static const Lamp LAMPS[] = {
     {"from behind", "light directional { direction -0.8 -0.4 0.6 }\n", false, {0.8, 0.4, -0.6}},
     {"across", "light directional { direction -1 -0.7 0.3 }\n", false, {1, 0.7, -0.3}},
     {"near", "light point { position 0.9 1.1 0.6 }\n", true, {0.9, 1.1, 0.6}},
-    {"below a slab", "light point { position 0.2 1.05 0.5 }\nbox { min -3 1.05 -3 max 3 1.0500002 3 }\n", true,
-     {0.2, 1.05, 0.5}},
+    {"below a slab", "light point { position 0.2 1.5 0.5 }\nbox { min -3 1.5 -3 max 3 1.625 3 }\n", true,
+     {0.2, 1.5, 0.5}},
 };
 
 typedef struct Found {
@@ -188,7 +188,7 @@ static void test_bands(void **state)
         assert_true(found[1].lit > 500);
         assert_int_equal(found[1].dark, 0);
         assert_true(found[1].error < 1e-5);
-        assert_true(found[0].dark > found[0].lit / 50 && found[0].error > 0.1);
+        assert_true(found[0].dark > found[0].lit / 50 && found[0].error > 0.05);
         assert_true(found[1].step < 0.5 * found[0].step);
     }
 }
@@ -233,7 +233,7 @@ static void test_placed(void **state)
         const u32 apart = levels_apart(&instance, &baked, 1), bands = levels_apart(&baked, &banded, 1);
         print_message("%s: %u of %u values more than a level apart; without: %u\n", ways[i], apart,
                       3 * SIDE * SIDE, bands);
-        assert_true(apart <= 30 && bands >= 600);
+        assert_true(apart <= 3 && bands >= 300);
         picture_destroy(&instance);
         picture_destroy(&baked);
         picture_destroy(&banded);
@@ -250,8 +250,8 @@ static f64 mean_of(const Picture *picture)
     return sum / (picture->width * picture->height);
 }
 
-// A body without hollows hides nothing from itself: with moved origins next to all rays of ambient occlusion
-// are free. Lamps with a size shine on no fewer places.
+// A body without hollows hides nothing from itself: with moved origins all rays of ambient occlusion are free.
+// Lamps with a size shine on more places.
 static void test_drawn(void **state)
 {
     const Fixture *f = *state;
@@ -260,26 +260,40 @@ static void test_drawn(void **state)
         "ambient 0\nlight sphere { center 4 3 -2 radius 1 radiance 20 samples 4 }\n",
         "ambient 0\nlight rectangle { corner 3 -1 -2 edge1 0 0 2 edge2 0 2 0 radiance 20 samples 4 }\n",
     };
-    static const f64 gains[] = {1.03, 1.05, 1.05};
+    Picture open = picture_of(f->device, BALL_FILE, "", true, "ambient 1\n", NULL);
     for (int i = 0; i < 3; i++) {
-        Picture open = picture_of(f->device, BALL_FILE, "", true, "ambient 1\n", NULL);
         Picture off = picture_of(f->device, BALL_FILE, "", false, scenes[i], NULL);
         Picture on = picture_of(f->device, BALL_FILE, "", true, scenes[i], NULL);
-        Picture other = picture_of(f->device, BALL_FILE, "", true, scenes[i], &(RenderHow){.shape = "1,1,16"});
-        Picture eight = picture_of(f->device, BALL_FILE, "", true, scenes[i], &(RenderHow){.shape = "8,32,1"});
         print_message("scene %d: mean %g off, %g on, %g with all ambient light\n", i, mean_of(&off), mean_of(&on),
                       mean_of(&open));
-        assert_true(mean_of(&on) > gains[i] * mean_of(&off));
+        assert_true(mean_of(&on) > 1.01 * mean_of(&off));
         if (i == 0)
-            assert_true(mean_of(&on) > 0.995 * mean_of(&open));
-        assert_same_picture(&on, &other, "1,1,16");
-        assert_same_picture(&on, &eight, "8,32,1");
-        picture_destroy(&open);
+            assert_true(mean_of(&on) > 0.999 * mean_of(&open));
         picture_destroy(&off);
         picture_destroy(&on);
-        picture_destroy(&other);
-        picture_destroy(&eight);
     }
+    picture_destroy(&open);
+}
+
+// The same bytes whatever the shape of the kernels, with rays of all kinds that start from moved places.
+static void test_shapes(void **state)
+{
+    const Fixture *f = *state;
+    static const char *const shapes[] = {"8,32,1", "1,1,16"};
+    static const char rest[] =
+        "render { ambient_occlusion 4 10 }\nlight sphere { center 4 3 -2 radius 1 radiance 20 samples 2 }\n"
+        "light directional { direction -1 -0.7 0.3 }\nenvironment { file \"sky.hdr\" }\n"
+        "instance o { scale 0.25 -0.5 0.25 translate 0.75 0.75 0 material m }\n";
+    char *ball = mesh_of(BALL_FILE, "terminator on");
+    char *text = text_of("object o { %s }\nmaterial m pbr { }\n%s", ball, rest);
+    free(ball);
+    Picture pictures[2];
+    for (int i = 0; i < 2; i++)
+        pictures[i] = picture_of(f->device, BALL_FILE, "", true, text, &(RenderHow){.shape = shapes[i]});
+    assert_same_picture(&pictures[0], &pictures[1], shapes[1]);
+    for (int i = 0; i < 2; i++)
+        picture_destroy(&pictures[i]);
+    free(text);
 }
 
 int main(void)
@@ -294,6 +308,7 @@ int main(void)
         cmocka_unit_test_prestate(test_unchanged, &f),
         cmocka_unit_test_prestate(test_placed, &f),
         cmocka_unit_test_prestate(test_drawn, &f),
+        cmocka_unit_test_prestate(test_shapes, &f),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     remove(BALL_FILE);
