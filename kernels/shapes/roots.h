@@ -57,8 +57,8 @@ static inline Interval quadratic_roots(vf a, vf b, vf c)
 // "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019). fma rounds the moved origin
 // once, so that the ray stays the same ray. Returns the t of the new origin; dd = |d|^2.
 //
-// From one and a half radii on t is at least a third of the shift, so that the sum costs t little, and closer by
-// a grazing ray loses less to the squares than one ulp of what went in.
+// From one and a half radii on t is at least a third of the shift, so that the sum costs t little; from
+// closer by, a grazing ray loses less to the squares than one ulp of what went in is worth.
 #define FAR_FROM_CENTRE 2.25f // radii, squared
 static inline vf closest_shift(v3 *o, v3 d, vf dd, vf far2)
 {
@@ -150,7 +150,7 @@ static inline vf plane_distance(v3 plane, vf offset, v3 p)
     return fma(plane.z, p.z, fma(plane.y, p.y, fma(plane.x, p.x, -offset)));
 }
 
-// a b + c = sum + *rest, but for a few roundings of *rest: Knuth's sum of two numbers, with a product for one.
+// a b + c = sum + *rest, but for a few roundings of *rest: Knuth's sum of two numbers, one of them a product.
 static inline vf fma_rest(vf a, vf b, vf c, vf *rest)
 {
     const vf sum = fma(a, b, c);
@@ -169,8 +169,8 @@ static inline vf2 plane_dot(v3 plane, v3 p)
     return vf2_make(z, fma(plane.x, p.x, -x) + (rest_y + rest_z));
 }
 
-// plane.p - offset to a rounding or two of what is left, however much cancels: t of shapes far from the origin of
-// the space stands on that. Whatever lies in one plane takes it, so that it has the same t.
+// plane.p - offset to a rounding or two of what is left, however much cancels: t of shapes far from the
+// origin of the space stands on that. All shapes with flat parts take it: those in one plane have the same t.
 static inline vf plane_height(vf2 dot, vf offset) { return (dot.hi - offset) + dot.lo; }
 
 #endif

@@ -10,8 +10,8 @@ static inline v3 tetrahedron_last_row(const PrimitiveLanes *p)
     return v3_neg(v3_add(v3_add(p->row0, p->row1), p->row2));
 }
 
-// The barycentric weights of b, c, d and a at the origin of a ray, and how they grow along it. That of a is what
-// the others leave, so that its row is never rounded.
+// The barycentric weights of b, c, d and a at the origin of a ray, and how they grow along it. That of a is
+// what the others leave, so that its row is never rounded.
 typedef struct {
     vf at[4], rate[4];
 } TetrahedronWeights;

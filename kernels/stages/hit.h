@@ -74,7 +74,8 @@ typedef struct {
     v3 ng, ns;    // unit, turned to the ray's origin
 #if HAS_TERMINATOR
     v3 horizon;   // unit: light from below the plane with this normal does not count
-    v3 raise;     // the way from point to where shadow rays start; not to below the face
+    vm raised;    // shadow rays start at raised_point, off the surface; else next to point
+    v3 raised_point;
 #endif
     vm inside;    // the ray met the surface from its inner side
     vi primitive; // a valid index or slot in every lane, as in BatchHits
@@ -230,18 +231,22 @@ OUTLINE Raise mesh_raise(const Shading *shading, const MeshHit *m, const Surface
 }
 
 // Light counts above the horizon of the interpolated normal `smooth` in the lanes that bulge, and shadow rays
-// start on the way that `raise` tells of, unless it leads below the face.
+// start where `raise` leads to, unless that is below the face.
 static inline void hit_raise(Hit *hit, const Raise *raise, v3 smooth)
 {
     hit->horizon = hit->ng;
-    hit->raise = v3_splat(0.0f);
+    hit->raised = (vm)(0);
+    hit->raised_point = hit->point;
     if (!vm_any(raise->bulges))
         return;
     const v3 turned = v3_select(v3_dot(smooth, hit->ng) < (vf)(0.0f), v3_neg(smooth), smooth);
-    const v3 way = raise_way(raise);
+    const v3 way = raise_way(raise), point = v3_add(hit->point, way);
+    const v3 rounding = v3_fma(v3_abs(way), (vf)(4.0f), v3_abs(point));
     const vf up = v3_dot(way, hit->ng);
     hit->horizon = v3_select(raise->bulges, turned, hit->ng);
-    hit->raise = v3_select(raise->bulges & (up >= (vf)(0.0f)) & (up < (vf)(INFINITY)), way, hit->raise);
+    hit->raised = raise->bulges & (up > (vf)(0.0f)) & (up < (vf)(INFINITY));
+    hit->raised_point =
+        offset_origin(point, v3_fma(rounding, (vf)(ROUNDING), hit->error), hit->ng, hit->ng);
 }
 #endif
 

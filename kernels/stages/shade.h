@@ -232,8 +232,9 @@ OUTLINE LightRay light_ray(const Hit *hit, const Shading *shading, v3 diffuse, v
     ray.length = sample.distance * LIGHT_NEARER;
 #if HAS_TERMINATOR
     // From where the ray starts to the same place at the same t.
-    const v3 bent = v3_sub(ray.dir, v3_scale(hit->raise, (vf)(1.0f) / sample.distance));
-    ray.dir = v3_select(sample.distance > (vf)(0.0f), bent, ray.dir);
+    const v3 way = v3_sub(hit->raised_point, hit->point);
+    const v3 bent = v3_sub(ray.dir, v3_scale(way, (vf)(1.0f) / sample.distance));
+    ray.dir = v3_select(hit->raised & (sample.distance > (vf)(0.0f)), bent, ray.dir);
 #endif
 #endif
     return ray;
@@ -243,11 +244,8 @@ OUTLINE LightRay light_ray(const Hit *hit, const Shading *shading, v3 diffuse, v
 static inline v3 shadow_origin(const Hit *hit)
 {
 #if HAS_TERMINATOR
-    // A point that does not move keeps its bound to the bit, so that it starts where it does without the feature.
-    const v3 way = hit->raise, point = v3_add(hit->point, way);
-    const vm moved = v3_dot(way, way) > (vf)(0.0f);
-    const v3 rounded = v3_fma(v3_add(v3_abs(point), v3_abs(way)), (vf)(4.0f * ROUNDING), hit->error);
-    return offset_origin(point, v3_select(moved, rounded, hit->error), hit->ng, hit->ng);
+    const v3 beside = offset_origin(hit->point, hit->error, hit->ng, hit->ng);
+    return v3_select(hit->raised, hit->raised_point, beside);
 #else
     return offset_origin(hit->point, hit->error, hit->ng, hit->ng);
 #endif

@@ -254,10 +254,12 @@ static void test_missing_textures(void **state)
     assert_int_equal(brick->diffuse.texture, -1);
     assert_int_equal(brick->normal_map, -1);
     release(&p);
-    Parsed q = load_text("mesh { file \"u.obj\" } environment { file \"away.png\" }");
-    assert_int_equal(diagnostics_error_count(q.diagnostics), 1);
-    assert_non_null(strstr(q.messages, "error: cannot read 'away.png': No such file"));
-    release(&q);
+    expect_messages("mesh { file \"u.obj\" }\nenvironment { file \"away.png\" }",
+                    "t:1:8: warning: cannot read 'u.mtl', which 'u.mtl' names: not a PNG, JPEG, Radiance HDR or "
+                    "OpenEXR file; it is left out\n"
+                    "    mesh { file \"u.obj\" }\n           ^~~~\n"
+                    "t:2:15: error: cannot read 'away.png': No such file or directory\n"
+                    "    environment { file \"away.png\" }\n                  ^~~~\n");
 }
 
 #define GREY_URI \

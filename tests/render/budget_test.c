@@ -189,6 +189,36 @@ static void without_bound(void **state)
     check(&rare, SAMPLING_NORMAL, false);
 }
 
+// The spread of 1000 + and - 0.01, which a sum of squares in floats would lose: that of two values, of which the
+// mean tells how often each was met.
+static void spread_of_large_values(void **state)
+{
+    (void)state;
+    const f64 low = (f64)999.99f, high = (f64)1000.01f;
+    const u32 samples = 1024;
+    char *text = text_of("image { size 1 1 samples %u } camera { position 0 0 1 look_at 0 0 0 orthographic 1 } "
+                         "ambient 0 background 999.99 material m phong { diffuse 0 emission 1000.01 } "
+                         "triangle { vertices -9 -3 0  9 3 0  9 -99 0 material m } "
+                         "triangle { vertices -9 -3 0  9 -99 0  -9 -99 0 material m }", samples);
+    Layout *layout = layout_of(text);
+    Error error = {0};
+    const RenderJob job = {.layout = layout, .device = device, .width = 1, .height = 1};
+    Render *render = render_create(&job, &error);
+    RenderRows rows = {0};
+    while (render && rows.count == 0)
+        assert_true(render_step(render, &rows, &error));
+    assert_non_null(render);
+    const f64 share = ((f64)rows.rgb[0] - low) / (high - low);
+    const f64 expected = 3 * samples * share * (1 - share) * (high - low) * (high - low);
+    printf("mean %.9g, variance %.6g of 1e-4\n", (f64)rows.rgb[0], (f64)rows.m2[0] / (3 * samples));
+    assert_true(fabs(share - 0.5) < 0.05);
+    // The mean is a float, and so are the differences from it: 2^-14 / 2 of 0.01.
+    assert_true(fabs((f64)rows.m2[0] - expected) <= 0.005 * expected);
+    render_destroy(render);
+    layout_destroy(layout);
+    free(text);
+}
+
 int main(void)
 {
     device = test_device_open(0);
@@ -199,6 +229,7 @@ int main(void)
         cmocka_unit_test(rarely_seen),
         cmocka_unit_test(several_pixels),
         cmocka_unit_test(without_bound),
+        cmocka_unit_test(spread_of_large_values),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     device_close(device);
