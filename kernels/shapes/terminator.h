@@ -1,6 +1,6 @@
 // Where shadow rays of smooth meshes start. A face lies below the surface that its normals tell of, so that
-// faces next to the terminator shadow themselves one by one. Origins move out to that surface: to the mean, by
-// the weights of the hit, of the hit's projections onto the tangent planes at the three vertices.
+// faces next to the terminator shadow themselves one by one. Origins move out to that surface: to the mean,
+// by the weights of the hit, of the hit's projections onto the tangent planes at the three vertices.
 // Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
 #ifndef CLRT_KERNELS_SHAPES_TERMINATOR_H
 #define CLRT_KERNELS_SHAPES_TERMINATOR_H
@@ -13,9 +13,9 @@ typedef struct {
     vf lift[3];   // weight times how far the hit is below that plane; 0 where it is not; negative from within
 } Raise;
 
-// Vertex k has this place and weight and raise->normal[k], all in the space of the surface; side: 1, or -1 where
-// the ray comes from within. What the hit's place and the vertices' own rounding account for is no distance, so
-// that flat faces stay where they are.
+// Vertex k has this place and weight and raise->normal[k], all in the space of the surface; side: 1, or -1
+// where the ray comes from within. What the hit's place and the vertices' own rounding account for is no
+// distance, so that flat faces stay where they are.
 static inline void raise_vertex(Raise *raise, int k, v3 vertex, vf weight, const SurfaceLanes *s, vf side)
 {
     const v3 from = v3_sub(s->p, vertex), n = raise->normal[k];

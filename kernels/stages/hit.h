@@ -466,8 +466,10 @@ OUTLINE Hit hit_make(const Hierarchy *scene, const Shading *shading, v3 org, v3 
     normal = v3_select(placement.placed, carry_normal(&placement.map, normal), normal);
 #endif
 #if HAS_TERMINATOR
-    for (int k = 0; k < 3 && vm_any(raise.bulges); k++)
-        raise.normal[k] = v3_select(placement.placed, carry_normal(&placement.map, raise.normal[k]), raise.normal[k]);
+    for (int k = 0; k < 3 && vm_any(raise.bulges); k++) {
+        const v3 n = raise.normal[k];
+        raise.normal[k] = v3_select(placement.placed, carry_normal(&placement.map, n), n);
+    }
 #endif
 #endif
     hit.point = surface.p;

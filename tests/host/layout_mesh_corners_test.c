@@ -76,7 +76,8 @@ static void test_normals(void **state)
     l = layout_good("mesh { file \"grid9 normals\" terminator on }\n");
     assert_false(features_have(l->features, FEATURE_TERMINATOR));
     layout_destroy(l);
-    l = layout_good("mesh { file \"grid9 normals\" terminator on smooth off }\nlight directional { direction 0 -1 0 }\n");
+    l = layout_good("mesh { file \"grid9 normals\" terminator on smooth off }\n"
+                    "light directional { direction 0 -1 0 }\n");
     assert_int_equal(l->mesh_runs[0].flags, 0);
     assert_false(features_have(l->features, FEATURE_TERMINATOR));
     layout_destroy(l);

@@ -151,7 +151,8 @@ static void test_mesh(void **state)
     assert_null(p.scene->shapes[0].as.mesh.mesh); // files are not the parser's
     parsed_end(&p);
     expect_error("mesh { file \"a\" terminator yes }", "1:28: 'terminator' takes on or off, not 'yes'");
-    expect_error("sphere { center 0 0 0 radius 1 terminator on }", "1:32: unknown property 'terminator' of sphere");
+    expect_error("sphere { center 0 0 0 radius 1 terminator on }",
+                 "1:32: unknown property 'terminator' of sphere");
     expect_error("mesh { file \"\" }", "1:13: the file name is empty");
 }
 

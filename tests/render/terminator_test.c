@@ -1,6 +1,6 @@
-// Shading of smooth meshes next to the terminator. A ball of few faces, seen by parallel rays, so that the test
-// knows the place and the interpolated normal of every pixel: with `terminator on` each has all the light that
-// the normal turns to, with `off` whole faces are dark. What does not bulge is the same in both ways.
+// Shading of smooth meshes next to the terminator. A ball of few faces, seen by parallel rays, so that the
+// test knows the place and the interpolated normal of every pixel: with `terminator on` each has all the light
+// that the normal turns to, with `off` whole faces are dark. What does not bulge is the same in both ways.
 #include "support.h"
 
 #include <math.h>
@@ -8,7 +8,8 @@
 
 #include "base/vec.h"
 
-enum { AROUND = 8, ROWS = 4, RINGS = (ROWS - 1) * AROUND, VERTICES = RINGS + 2, FACES = 2 * RINGS, SIDE = 160 };
+enum { AROUND = 8, ROWS = 4, RINGS = (ROWS - 1) * AROUND, VERTICES = RINGS + 2, FACES = 2 * RINGS };
+enum { SIDE = 160 }; // of the pictures, in pixels
 
 #define BALL_FILE "terminator_test_ball.obj"
 #define SHEET_FILE "terminator_test_sheet.obj"
@@ -173,7 +174,8 @@ static Found compare(const Ball *ball, const Picture *picture, const Lamp *lamp)
 static void test_bands(void **state)
 {
     const Fixture *f = *state;
-    print_message("%-14s %-4s %6s %6s %10s %10s %10s\n", "light", "", "lit", "dark", "normals", "sphere", "step");
+    print_message("%-14s %-4s %6s %6s %10s %10s %10s\n", "light", "", "lit", "dark", "normals", "sphere",
+                  "step");
     for (size_t i = 0; i < sizeof LAMPS / sizeof *LAMPS; i++) {
         Found found[2];
         char *rest = text_of("ambient 0\n%s", LAMPS[i].text);
@@ -197,7 +199,8 @@ static void test_bands(void **state)
 static void test_unchanged(void **state)
 {
     const Fixture *f = *state;
-    static const char lights[] = "light directional { direction -1 -0.7 0.3 }\nlight point { position 0.1 0.2 0.3 }\n"
+    static const char lights[] = "light directional { direction -1 -0.7 0.3 }\n"
+                                 "light point { position 0.1 0.2 0.3 }\n"
                                  "light directional { direction -0.2 -0.1 -1 }\n";
     static const struct {
         const char *file, *properties;
@@ -221,7 +224,8 @@ static void test_unchanged(void **state)
 static void test_placed(void **state)
 {
     const Fixture *f = *state;
-    static const char *const ways[] = {"scale 0.9 0.5 0.7 rotate 1 0.5 0 40", "scale -0.6 0.9 0.6 rotate z 20"};
+    static const char *const ways[] = {"scale 0.9 0.5 0.7 rotate 1 0.5 0 40",
+                                       "scale -0.6 0.9 0.6 rotate z 20"};
     static const char lights[] = "ambient 0\nlight directional { direction -1 -0.7 0.3 }\n";
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         char *ball = mesh_of(BALL_FILE, "terminator on");
@@ -250,8 +254,8 @@ static f64 mean_of(const Picture *picture)
     return sum / (picture->width * picture->height);
 }
 
-// A body without hollows hides nothing from itself: with moved origins all rays of ambient occlusion are free.
-// Lamps with a size shine on more places.
+// A body without hollows hides nothing from itself: with moved origins all rays of ambient occlusion are
+// free. Lamps with a size shine on more places.
 static void test_drawn(void **state)
 {
     const Fixture *f = *state;
@@ -264,8 +268,8 @@ static void test_drawn(void **state)
     for (int i = 0; i < 3; i++) {
         Picture off = picture_of(f->device, BALL_FILE, "", false, scenes[i], NULL);
         Picture on = picture_of(f->device, BALL_FILE, "", true, scenes[i], NULL);
-        print_message("scene %d: mean %g off, %g on, %g with all ambient light\n", i, mean_of(&off), mean_of(&on),
-                      mean_of(&open));
+        print_message("scene %d: mean %g off, %g on, %g with all ambient light\n", i, mean_of(&off),
+                      mean_of(&on), mean_of(&open));
         assert_true(mean_of(&on) > 1.01 * mean_of(&off));
         if (i == 0)
             assert_true(mean_of(&on) > 0.999 * mean_of(&open));
