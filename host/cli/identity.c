@@ -53,6 +53,9 @@ static void add_options(IdentityTexts *texts, const Identity *identity)
     start_text(texts, "clrt:options");
     write_text(texts, "--size %ux%u --samples %u --seed %u --depth %u", scene->image.width,
                scene->image.height, scene->image.samples, scene->image.seed, scene->render.max_depth);
+    if (scene->environment.present)
+        write_text(texts, " --environment-lighting %s",
+                   scene->render.environment_lighting == ENVIRONMENT_PREFILTERED ? "prefiltered" : "sampled");
     if (identity->cropped)
         write_text(texts, " --crop %u,%u,%u,%u", identity->left, identity->top, identity->width,
                    identity->height);

@@ -196,6 +196,8 @@ bool options_override(const Options *options, Scene *scene, Error *error)
         image->seed = options->seed;
     if (options->depth_given)
         scene->render.max_depth = options->depth;
+    if (options->environment_lighting_given)
+        scene->render.environment_lighting = options->environment_lighting;
     if (options->exposure_given) {
         scene->output.exposure = options->exposure;
         scene->output.exposure_given = true;

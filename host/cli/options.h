@@ -32,6 +32,8 @@ typedef struct Options {
     u32 samples;       // 1..1048576
     u32 seed;
     u32 depth;                        // 0..64
+    bool environment_lighting_given;
+    EnvironmentLighting environment_lighting;
     u32 crop_x, crop_y;               // 0..65535
     u32 crop_width, crop_height;      // 1..65536
     f64 exposure;                     // stops

@@ -107,6 +107,16 @@ static const char *take_depth(Options *options, const char *value)
     return read_within(value, 0, DEPTH_MAX, &options->depth) ? NULL : "a whole number from 0 to 64";
 }
 
+static const char *take_environment_lighting(Options *options, const char *value)
+{
+    const bool prefiltered = strcmp(value, "prefiltered") == 0;
+    if (!prefiltered && strcmp(value, "sampled") != 0)
+        return "sampled or prefiltered";
+    options->environment_lighting_given = true;
+    options->environment_lighting = prefiltered ? ENVIRONMENT_PREFILTERED : ENVIRONMENT_SAMPLED;
+    return NULL;
+}
+
 static const char *take_crop(Options *options, const char *value)
 {
     u32 crop[4];
@@ -247,6 +257,8 @@ const Option OPTIONS[] = {
     {'n', "samples", VALUE_REQUIRED, "N", GROUP_IMAGE, "samples a pixel, 1 to 1048576", take_samples},
     {0, "seed", VALUE_REQUIRED, "N", GROUP_IMAGE, "seed of all random choices", take_seed},
     {0, "depth", VALUE_REQUIRED, "N", GROUP_IMAGE, "largest depth of a ray, 0 to 64", take_depth},
+    {0, "environment-lighting", VALUE_REQUIRED, "HOW", GROUP_IMAGE,
+     "light of the environment on pbr materials: sampled or prefiltered", take_environment_lighting},
     {0, "crop", VALUE_REQUIRED, "X,Y,W,H", GROUP_IMAGE, "only these pixels, as an image of W x H [all]",
      take_crop},
     {0, "bits", VALUE_REQUIRED, "8|16", GROUP_OUTPUT, "bits of a channel of a PNG [8]", take_bits},

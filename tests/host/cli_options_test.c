@@ -164,6 +164,7 @@ static void refuses_with_words(void **state)
     refused("--aov depth,colour a b",
             "--aov 'depth,colour': must be a list of depth, normal, position, albedo, id, with commas between");
     refused("--aov id a -", "--aov needs a file's name for OUT");
+    refused("--environment-lighting baked a b", "--environment-lighting 'baked': must be sampled or prefiltered");
     refused("--bits 9 --depth 99 a b",
             "--bits '9': must be 8 or 16\n--depth '99': must be a whole number from 0 to 64");
 }
@@ -234,6 +235,10 @@ static void overrides_the_scene(void **state)
     assert_int_equal(scene.render.max_depth, 0);
     assert_true(scene.output.exposure == 2 && scene.output.exposure_given && scene.output.tone_map_given);
     assert_int_equal(scene.output.tone_map, TONE_MAP_HABLE);
+    assert_int_equal(scene.render.environment_lighting, ENVIRONMENT_SAMPLED);
+    options = accepted("--environment-lighting prefiltered a b");
+    assert_true(options_override(&options, &scene, &error));
+    assert_int_equal(scene.render.environment_lighting, ENVIRONMENT_PREFILTERED);
     options = accepted("--crop 16,5,5,5 a b");
     assert_false(options_override(&options, &scene, &error));
     assert_int_equal(error.code, ERROR_USAGE);
