@@ -11,7 +11,8 @@
 #include "row.h"
 #include "statistics.h"
 
-enum { WIDTH = 640, HEIGHT = 480, QUICK_WIDTH = 320, QUICK_HEIGHT = 240, ROUNDS_MIN = 3 };
+// Large enough that tracing takes a tenth of a second.
+enum { WIDTH = 1280, HEIGHT = 960, QUICK_WIDTH = 640, QUICK_HEIGHT = 480, ROUNDS_MIN = 3 };
 
 // A median farther from 0 than this many deviations, by MAD, is more than noise.
 static const f64 NOISE_DEVIATIONS = 3, DEVIATION_OF_MAD = 1.4826;
