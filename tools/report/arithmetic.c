@@ -13,10 +13,10 @@ static Image *render_image(Job *job, const Shot *shot, const char **reason, Erro
 {
     Shown shown;
     *reason = NULL;
-    if (!runner_try(&job->session->runner, shot, &shown, error))
+    if (!runner_try(&job->campaign->runner, shot, &shown, error))
         return NULL;
     if (shown.status != 0) {
-        *reason = arena_copy_text(job->session->arena, shown.talk, strlen(shown.talk));
+        *reason = arena_copy_text(job->campaign->arena, shown.talk, strlen(shown.talk));
         return NULL;
     }
     json_decref(shown.stats);
@@ -95,7 +95,7 @@ static bool compare_arithmetic(Job *job, Candidate *candidate, u32 samples, cons
 
 bool arithmetic_measure(Job *job, Candidate *candidate, Error *error)
 {
-    Arena *arena = job->session->arena;
+    Arena *arena = job->campaign->arena;
     if (!job_find(job, "double") || strcmp(candidate->mode->math, "double") == 0) {
         const char *reason =
             job_find(job, "double") ? "this is double itself" : "there is no mode double to compare with";

@@ -30,7 +30,7 @@ typedef struct Subject {
 } Subject;
 
 typedef struct Bench {
-    Session *session;
+    Campaign *campaign;
     const char *folder;
     u32 rounds, count;
     Subject *subjects;
@@ -49,7 +49,7 @@ static bool write_text(const char *path, const char *text, Error *error)
 static bool prepare(const Bench *bench, Trial *trial, size_t feature, FeatureText kind, Error *error)
 {
     static const char *const SUFFIXES[] = {"base", "used", "unused", "unused_base"};
-    Arena *arena = bench->session->arena;
+    Arena *arena = bench->campaign->arena;
     const char *text = feature_scene_text(feature, kind, arena);
     if (!text)
         return true;
@@ -94,8 +94,8 @@ static bool names_are_known(const char *list, Error *error)
 
 static bool prepare_all(Bench *bench, Error *error)
 {
-    const char *list = bench->session->arguments->feature_list;
-    Arena *arena = bench->session->arena;
+    const char *list = bench->campaign->arguments->feature_list;
+    Arena *arena = bench->campaign->arena;
     const char *mesh = feature_scene_mesh(arena);
     const char *path = text_format(arena, "%s/%s", bench->folder, FEATURE_MESH_NAME);
     bench->subjects = arena_alloc(arena, FEATURE_SCENE_COUNT, sizeof *bench->subjects);
@@ -120,15 +120,15 @@ static bool run_trial(const Bench *bench, Trial *trial, int round, Error *error)
 {
     if (!trial->path)
         return true;
-    const bool quick = bench->session->arguments->quick;
+    const bool quick = bench->campaign->arguments->quick;
     const Shot shot = {.scene = trial->path,
                        .width = quick ? QUICK_WIDTH : WIDTH,
                        .height = quick ? QUICK_HEIGHT : HEIGHT,
-                       .image = text_format(bench->session->arena, "%s/shot.pfm", bench->folder)};
+                       .image = text_format(bench->campaign->arena, "%s/shot.pfm", bench->folder)};
     Shown shown;
     if (!shot.image)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
-    if (!runner_render(&bench->session->runner, &shot, &shown, error))
+    if (!runner_render(&bench->campaign->runner, &shot, &shown, error))
         return false;
     if (round >= 0)
         trial->ns[round] = doc_number(shown.stats, "seconds.trace") / row_rays(shown.stats) * 1e9;
@@ -141,7 +141,7 @@ static bool run_rounds(Bench *bench, Error *error)
 {
     bool ok = true;
     for (int round = -1; round < (int)bench->rounds && ok; round++) {
-        session_say(bench->session, "features: %s %d of %u", round < 0 ? "compile" : "round", round + 1,
+        campaign_say(bench->campaign, "features: %s %d of %u", round < 0 ? "compile" : "round", round + 1,
                     bench->rounds);
         for (u32 i = 0; i < bench->count && ok; i++) {
             Subject *subject = &bench->subjects[i];
@@ -216,11 +216,11 @@ static void append_results(const Bench *bench, json_t *features)
     }
 }
 
-bool feature_costs_measure(Session *session, json_t *features, Error *error)
+bool feature_costs_measure(Campaign *campaign, json_t *features, Error *error)
 {
-    const u32 runs = session->arguments->runs;
-    Bench bench = {.session = session, .rounds = runs < ROUNDS_MIN ? ROUNDS_MIN : runs};
-    bench.folder = text_format(session->arena, "%s/features", session->runner.folder);
+    const u32 runs = campaign->arguments->runs;
+    Bench bench = {.campaign = campaign, .rounds = runs < ROUNDS_MIN ? ROUNDS_MIN : runs};
+    bench.folder = text_format(campaign->arena, "%s/features", campaign->runner.folder);
     if (!bench.folder)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     const bool ok =

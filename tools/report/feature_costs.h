@@ -9,6 +9,6 @@
 // cannot be declared without use), of: ns_per_ray, added_ns_per_ray (to the base of the same round) as median
 // and mad, rays, features, kernel_hash; unused also has within_noise, same_features and same_kernels. Fails
 // as clrt does.
-bool feature_costs_measure(Session *session, json_t *features, Error *error);
+bool feature_costs_measure(Campaign *campaign, json_t *features, Error *error);
 
 #endif

@@ -150,7 +150,7 @@ static void put_feature(FILE *file, const json_t *one)
     fputs("</tr>\n", file);
 }
 
-static bool put_features(FILE *file, const Session *session, const json_t *report, Error *error)
+static bool put_features(FILE *file, const Campaign *campaign, const json_t *report, Error *error)
 {
     const json_t *features = json_object_get(report, "features");
     if (json_array_size(features) == 0)
@@ -163,7 +163,7 @@ static bool put_features(FILE *file, const Session *session, const json_t *repor
           "but unused</i>: a torus in an object that is never placed, a material on nothing. That must be 0 "
           "within noise, and its program the same.</p>\n",
           file);
-    if (!html_plot_write(file, session, report, "features", NULL,
+    if (!html_plot_write(file, campaign, report, "features", NULL,
                          "Cost of each feature added alone, and of its declaration without use.", error))
         return false;
     page_table(file, "feature|what is added|ns/ray|added ns/ray|unused:<br>added "
@@ -178,7 +178,7 @@ static bool put_features(FILE *file, const Session *session, const json_t *repor
 
 // ---- shapes, self-test ----------------------------------------------------------------------
 
-static bool put_ulp(FILE *file, const Session *session, const json_t *report, Error *error)
+static bool put_ulp(FILE *file, const Campaign *campaign, const json_t *report, Error *error)
 {
     const json_t *shapes = doc_at(report, "ulp.shapes");
     if (json_array_size(shapes) == 0)
@@ -187,7 +187,7 @@ static bool put_ulp(FILE *file, const Session *session, const json_t *report, Er
           "against a reference of higher precision, in units in the last place.</p>\n",
           file);
     if (!html_plot_write(
-            file, session, report, "ulp", NULL,
+            file, campaign, report, "ulp", NULL,
             "Share of the hits (logarithmic) by their error: up to the number of ulp below each bar.", error))
         return false;
     page_table(file, "shape|rays|p99 ulp|max ulp");
@@ -271,23 +271,23 @@ static void put_caveats(FILE *file, const json_t *report)
           file);
 }
 
-static bool put_scenes(FILE *file, const Session *session, const json_t *report, Error *error)
+static bool put_scenes(FILE *file, const Campaign *campaign, const json_t *report, Error *error)
 {
     const char *before = "";
     size_t i;
     json_t *row;
     json_array_foreach (json_object_get(report, "rows"), i, row) {
         const char *scene = doc_text(row, "run.scene");
-        if (strcmp(scene, before) != 0 && !html_scene_write(file, session, report, scene, error))
+        if (strcmp(scene, before) != 0 && !html_scene_write(file, campaign, report, scene, error))
             return false;
         before = scene;
     }
     return true;
 }
 
-bool html_write(const Session *session, const json_t *report, Error *error)
+bool html_write(const Campaign *campaign, const json_t *report, Error *error)
 {
-    const char *path = text_format(session->arena, "%s/report.html", session->out);
+    const char *path = text_format(campaign->arena, "%s/report.html", campaign->out);
     FILE *file = path ? fopen(path, "wb") : NULL;
     if (!path)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
@@ -297,8 +297,8 @@ bool html_write(const Session *session, const json_t *report, Error *error)
     put_top(file, report);
     put_summary(file, report);
     put_reading(file);
-    const bool ok = put_scenes(file, session, report, error) && put_features(file, session, report, error) &&
-                    put_ulp(file, session, report, error);
+    const bool ok = put_scenes(file, campaign, report, error) && put_features(file, campaign, report, error) &&
+                    put_ulp(file, campaign, report, error);
     put_self_test(file, report);
     put_caveats(file, report);
     page_end(file);

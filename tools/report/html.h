@@ -6,6 +6,6 @@
 
 // Writes report.html into the report's folder, where the plots and pictures that the document names are.
 // False with ERROR_IO or ERROR_MEMORY.
-bool html_write(const Session *session, const json_t *report, Error *error);
+bool html_write(const Campaign *campaign, const json_t *report, Error *error);
 
 #endif

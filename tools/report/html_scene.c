@@ -8,7 +8,7 @@
 #include "html_page.h"
 #include "html_tables.h"
 
-bool html_plot_write(FILE *file, const Session *session, const json_t *report, const char *kind,
+bool html_plot_write(FILE *file, const Campaign *campaign, const json_t *report, const char *kind,
                      const char *scene, const char *caption, Error *error)
 {
     size_t i;
@@ -18,7 +18,7 @@ bool html_plot_write(FILE *file, const Session *session, const json_t *report, c
         if (strcmp(doc_text(plot, "kind"), kind) != 0 || !name ||
             (of ? !scene || strcmp(of, scene) != 0 : !!scene))
             continue;
-        const char *path = text_format(session->arena, "%s/%s", session->out, name);
+        const char *path = text_format(campaign->arena, "%s/%s", campaign->out, name);
         if (!path)
             return error_set(error, ERROR_MEMORY, "no memory for a name");
         fputs("<figure>", file);
@@ -31,14 +31,14 @@ bool html_plot_write(FILE *file, const Session *session, const json_t *report, c
 
 // ---- pictures -------------------------------------------------------------------------------
 
-static bool put_picture(FILE *file, const Session *session, const json_t *row, const char *path,
+static bool put_picture(FILE *file, const Campaign *campaign, const json_t *row, const char *path,
                         const char *what, Error *error)
 {
     const char *name = doc_text(row, path), *mode = doc_text(row, "run.mode");
     if (!name)
         return true;
-    const char *place = text_format(session->arena, "%s/%s", session->out, name);
-    const char *caption = text_format(session->arena, "%s: %s", mode, what);
+    const char *place = text_format(campaign->arena, "%s/%s", campaign->out, name);
+    const char *caption = text_format(campaign->arena, "%s: %s", mode, what);
     if (!place || !caption)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     fprintf(file, "<figure%s>", doc_number(row, "run.width") < 480 ? " class=\"small\"" : "");
@@ -50,7 +50,7 @@ static bool put_picture(FILE *file, const Session *session, const json_t *row, c
     return true;
 }
 
-static bool put_maps(FILE *file, const Session *session, const json_t *rows, const char *scene, Error *error)
+static bool put_maps(FILE *file, const Campaign *campaign, const json_t *rows, const char *scene, Error *error)
 {
     fputs("<h3>Where the errors are</h3><p>Each pixel's largest error of radiance over its three colours, "
           "all maps of all reports on one logarithmic scale from 10<sup>&minus;8</sup> to 1. Black: no "
@@ -64,8 +64,8 @@ static bool put_maps(FILE *file, const Session *session, const json_t *rows, con
             continue;
         fputs("<div class=\"row\">\n", file);
         ok = ok &&
-             put_picture(file, session, row, "files.map_r64", "arithmetic error, against double", error) &&
-             put_picture(file, session, row, "files.map_rinf",
+             put_picture(file, campaign, row, "files.map_r64", "arithmetic error, against double", error) &&
+             put_picture(file, campaign, row, "files.map_rinf",
                          "all of the error, against the converged picture", error);
         fputs("</div>\n", file);
     }
@@ -112,7 +112,7 @@ static const json_t *first_row(const json_t *rows, const char *scene)
     return NULL;
 }
 
-bool html_scene_write(FILE *file, const Session *session, const json_t *report, const char *scene,
+bool html_scene_write(FILE *file, const Campaign *campaign, const json_t *report, const char *scene,
                       Error *error)
 {
     const json_t *rows = json_object_get(report, "rows"), *first = first_row(rows, scene);
@@ -124,11 +124,11 @@ bool html_scene_write(FILE *file, const Session *session, const json_t *report, 
         return true;
     }
     put_identity(file, first);
-    if (!put_picture(file, session, first, "files.picture", "as a display shows it", error))
+    if (!put_picture(file, campaign, first, "files.picture", "as a display shows it", error))
         return false;
     html_tables_times(file, rows, scene);
     html_tables_rays(file, rows, scene);
-    if (!html_plot_write(file, session, report, "stages", scene,
+    if (!html_plot_write(file, campaign, report, "stages", scene,
                          "What the seconds of a run are spent on. The two panels have scales of their own.",
                          error))
         return false;
@@ -136,16 +136,16 @@ bool html_scene_write(FILE *file, const Session *session, const json_t *report, 
     html_tables_sampling(file, rows, scene);
     html_tables_slopes(file, rows, scene);
     if (!html_plot_write(
-            file, session, report, "convergence", scene,
+            file, campaign, report, "convergence", scene,
             "Error against time, from few to many samples; bars are 95 % intervals, mostly smaller than the "
             "dots. The grey line falls as plain Monte Carlo does.",
             error) ||
         !html_plot_write(
-            file, session, report, "pareto", scene,
+            file, campaign, report, "pareto", scene,
             "All ways to render this scene: the number beside a dot is its samples a pixel. What lies above "
             "and to the right of the grey steps is beaten in both time and error.",
             error) ||
-        !put_maps(file, session, rows, scene, error))
+        !put_maps(file, campaign, rows, scene, error))
         return false;
     fputs("<h3>Error budget</h3><p>What clrt states of each picture, beside the largest arithmetic error "
           "measured above (<code>e_arith</code>). What is not listed, or has a dash, is not stated.</p>\n",

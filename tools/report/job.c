@@ -6,7 +6,7 @@
 
 const char *job_temporary(const Job *job, const char *name)
 {
-    return text_format(job->session->arena, "%s/%s", job->session->runner.folder, name);
+    return text_format(job->campaign->arena, "%s/%s", job->campaign->runner.folder, name);
 }
 
 Shot job_shot(const Job *job, const Candidate *candidate, u32 samples)

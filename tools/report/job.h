@@ -18,7 +18,7 @@ typedef struct Candidate {
 } Candidate;
 
 typedef struct Job {
-    Session *session;
+    Campaign *campaign;
     const char *scene, *name; // name: of the folder in the report
     const char *folder;       // where that is now
     u32 width, height;
@@ -31,7 +31,7 @@ typedef struct Job {
     json_t *reference_json;
 } Job;
 
-// The path of a file that goes with the session, in its arena; NULL when memory is exhausted.
+// The path of a file that goes with the campaign, in its arena; NULL when memory is exhausted.
 const char *job_temporary(const Job *job, const char *name);
 
 // The scene at the job's size in a candidate's mode (NULL: exact), into a temporary file shot.pfm. samples 0:

@@ -16,9 +16,9 @@
 
 enum { FIRST_SEED = 1, REFERENCE_SAMPLES_MIN = 128, REFERENCE_FACTOR = 32 };
 
-void session_say(const Session *session, const char *format, ...)
+void campaign_say(const Campaign *campaign, const char *format, ...)
 {
-    if (session->arguments->quiet)
+    if (campaign->arguments->quiet)
         return;
     va_list list;
     va_start(list, format);
@@ -45,7 +45,7 @@ static void fit_size(Job *job, const json_t *stats, u64 pixels_max)
 // Adds the scene's own samples to those that are asked for, unless they are more.
 static void fit_samples(Job *job, u32 own)
 {
-    const Arguments *arguments = job->session->arguments;
+    const Arguments *arguments = job->campaign->arguments;
     bool placed = false;
     for (u32 i = 0; i < arguments->sample_count; i++) {
         const u32 samples = arguments->samples[i];
@@ -64,20 +64,20 @@ static void fit_samples(Job *job, u32 own)
 // Size and samples of the scene. clrt's own words on standard error where it cannot render it at all.
 static bool look(Job *job, Error *error)
 {
-    const Arguments *arguments = job->session->arguments;
+    const Arguments *arguments = job->campaign->arguments;
     Shown shown;
     Shot shot = {.scene = job->scene,
                  .width = arguments->width,
                  .height = arguments->height,
                  .samples = 1,
                  .image = job_temporary(job, "shot.pfm")};
-    if (!runner_render(&job->session->runner, &shot, &shown, error))
+    if (!runner_render(&job->campaign->runner, &shot, &shown, error))
         return false;
     fit_size(job, shown.stats, arguments->pixels_max);
     json_decref(shown.stats);
     shot.samples = 0;
     shot.crop = "0,0,1,1";
-    if (!runner_render(&job->session->runner, &shot, &shown, error))
+    if (!runner_render(&job->campaign->runner, &shot, &shown, error))
         return false;
     const f64 own = doc_number(shown.stats, "rays.camera");
     json_decref(shown.stats);
@@ -91,13 +91,13 @@ static bool try_candidate(Job *job, Candidate *candidate, Error *error)
     for (u32 i = 0; i < 2; i++) {
         const Shot shot = job_shot(job, candidate, i ? job->counts[job->own] : 1);
         Shown shown;
-        if (!runner_try(&job->session->runner, &shot, &shown, error))
+        if (!runner_try(&job->campaign->runner, &shot, &shown, error))
             return false;
         candidate->available = shown.status == 0;
         if (!candidate->available) {
             doc_set(candidate->row, "run.unavailable",
                     doc_string(*shown.talk ? shown.talk : "clrt ended in error"));
-            session_say(job->session, "%s: no %s: %s", job->name, candidate->mode->name, shown.talk);
+            campaign_say(job->campaign, "%s: no %s: %s", job->name, candidate->mode->name, shown.talk);
             return shown.status != ERROR_INTERRUPTED || error_set(error, ERROR_INTERRUPTED, "interrupted");
         }
         if (i == 0)
@@ -109,7 +109,7 @@ static bool try_candidate(Job *job, Candidate *candidate, Error *error)
 
 static bool make_candidates(Job *job, json_t *rows, Error *error)
 {
-    const Arguments *arguments = job->session->arguments;
+    const Arguments *arguments = job->campaign->arguments;
     bool ok = true;
     for (u32 i = 0; i < arguments->mode_count && ok; i++) {
         Candidate *candidate = &job->candidates[job->candidate_count++];
@@ -120,10 +120,10 @@ static bool make_candidates(Job *job, json_t *rows, Error *error)
         doc_set(candidate->row, "run.file", doc_string(job->scene));
         ok = try_candidate(job, candidate, error) &&
              (series_create(&candidate->cold, job->counts[job->own], arguments->cold_runs,
-                            job->session->arena) ||
+                            job->campaign->arena) ||
               error_set(error, ERROR_MEMORY, "no memory for a series"));
         for (u32 k = 0; k < job->count && ok; k++)
-            ok = series_create(&candidate->warm[k], job->counts[k], arguments->runs, job->session->arena) ||
+            ok = series_create(&candidate->warm[k], job->counts[k], arguments->runs, job->campaign->arena) ||
                  error_set(error, ERROR_MEMORY, "no memory for a series");
     }
     return ok;
@@ -133,7 +133,7 @@ static bool make_candidates(Job *job, json_t *rows, Error *error)
 
 static u32 reference_samples(const Job *job)
 {
-    const u32 asked = job->session->arguments->reference_samples;
+    const u32 asked = job->campaign->arguments->reference_samples;
     const u32 most = job->counts[job->count - 1];
     const u64 total = asked ? asked : (u64)most * REFERENCE_FACTOR;
     const u64 enough = asked || total > REFERENCE_SAMPLES_MIN ? total : REFERENCE_SAMPLES_MIN;
@@ -142,7 +142,7 @@ static u32 reference_samples(const Job *job)
 
 static bool make_reference(Job *job, Error *error)
 {
-    const Arguments *arguments = job->session->arguments;
+    const Arguments *arguments = job->campaign->arguments;
     const u32 samples = reference_samples(job);
     const Candidate *most_exact = job_find(job, "double");
     const f64 seconds = most_exact ? most_exact->seconds_a_sample * samples * REFERENCE_PARTS : 0;
@@ -150,13 +150,13 @@ static bool make_reference(Job *job, Error *error)
     Shot shot = job_shot(job, NULL, 0);
     shot.math = math;
     shot.scene = arguments->against ? arguments->against : job->scene;
-    session_say(job->session, "%s: reference of %u samples in %s arithmetic", job->name,
+    campaign_say(job->campaign, "%s: reference of %u samples in %s arithmetic", job->name,
                 samples * REFERENCE_PARTS, math);
-    if (!reference_make(&job->session->runner, &shot, samples, &job->reference, error))
+    if (!reference_make(&job->campaign->runner, &shot, samples, &job->reference, error))
         return false;
     job->reference_json = reference_to_json(&job->reference, math, samples);
-    const char *mean = text_format(job->session->arena, "%s/reference.pfm", job->folder);
-    const char *variance = text_format(job->session->arena, "%s/reference_variance.pfm", job->folder);
+    const char *mean = text_format(job->campaign->arena, "%s/reference.pfm", job->folder);
+    const char *variance = text_format(job->campaign->arena, "%s/reference_variance.pfm", job->folder);
     doc_set(job->reference_json, "scene", doc_string(shot.scene));
     return (mean && variance) ? reference_write(&job->reference, mean, variance, error)
                               : error_set(error, ERROR_MEMORY, "no memory for a name");
@@ -169,7 +169,7 @@ static bool measure_cold(Job *job, Candidate *candidate, Error *error)
     Shot shot = job_shot(job, candidate, job->counts[job->own]);
     shot.cold = true;
     Shown shown;
-    if (!runner_render(&job->session->runner, &shot, &shown, error))
+    if (!runner_render(&job->campaign->runner, &shot, &shown, error))
         return false;
     series_add(&candidate->cold, shown.stats, shown.wall_seconds);
     json_decref(shown.stats);
@@ -189,8 +189,8 @@ static bool keep_first(Job *job, Candidate *candidate, const Image *image, const
     doc_set(candidate->row, "health.negative_values", doc_whole(odd.negative));
     if (!job->reference.mean)
         return true;
-    const char *map = text_format(job->session->arena, "%s/%s_rinf.png", job->folder, candidate->mode->name);
-    const char *place = text_format(job->session->arena, "%s/%s_rinf.png", job->name, candidate->mode->name);
+    const char *map = text_format(job->campaign->arena, "%s/%s_rinf.png", job->folder, candidate->mode->name);
+    const char *place = text_format(job->campaign->arena, "%s/%s_rinf.png", job->name, candidate->mode->name);
     if (!map || !place)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     doc_set(candidate->row, "files.map_rinf", doc_string(place));
@@ -219,7 +219,7 @@ static bool measure_warm(Job *job, Candidate *candidate, u32 k, u32 run, Error *
     shot.seed_given = true;
     shot.seed = FIRST_SEED + run;
     Shown shown;
-    if (!runner_render(&job->session->runner, &shot, &shown, error))
+    if (!runner_render(&job->campaign->runner, &shot, &shown, error))
         return false;
     series_add(&candidate->warm[k], shown.stats, shown.wall_seconds);
     Image *image = pfm_image_read(shot.image, error);
@@ -233,15 +233,15 @@ static bool measure_warm(Job *job, Candidate *candidate, u32 k, u32 run, Error *
 // Modes and samples take turns, so that what else happens on the machine falls on all of them.
 static bool measure_runs(Job *job, Error *error)
 {
-    const Arguments *arguments = job->session->arguments;
+    const Arguments *arguments = job->campaign->arguments;
     bool ok = true;
     for (u32 run = 0; run < arguments->cold_runs && ok; run++) {
-        session_say(job->session, "%s: cold run %u of %u", job->name, run + 1, arguments->cold_runs);
+        campaign_say(job->campaign, "%s: cold run %u of %u", job->name, run + 1, arguments->cold_runs);
         for (u32 i = 0; i < job->candidate_count && ok; i++)
             ok = !job->candidates[i].available || measure_cold(job, &job->candidates[i], error);
     }
     for (u32 run = 0; run < arguments->runs && ok; run++) {
-        session_say(job->session, "%s: warm run %u of %u", job->name, run + 1, arguments->runs);
+        campaign_say(job->campaign, "%s: warm run %u of %u", job->name, run + 1, arguments->runs);
         for (u32 k = 0; k < job->count && ok; k++)
             for (u32 i = 0; i < job->candidate_count && ok; i++)
                 ok = !job->candidates[i].available || measure_warm(job, &job->candidates[i], k, run, error);
@@ -271,7 +271,7 @@ static void finish_row(Job *job, const Candidate *candidate)
                               series_point(&candidate->warm[k], &job->reference));
     const json_t *own = json_array_get(json_object_get(row, "convergence"), job->own);
     series_set_rinf(row, own, job->reference_json);
-    series_set_efficiency(row, own, candidate->warm, job->count, job->session->arena);
+    series_set_efficiency(row, own, candidate->warm, job->count, job->campaign->arena);
     if (json_is_null(doc_at(row, "budget.e_arith")))
         doc_set(row, "budget.e_arith", doc_real(doc_number(row, "error.r64.max_abs")));
     const Candidate *exact = job_find(job, "exact");
@@ -289,12 +289,12 @@ static void finish_row(Job *job, const Candidate *candidate)
 static bool draw_picture(Job *job, Candidate *candidate, Error *error)
 {
     Shot shot = job_shot(job, candidate, job->counts[job->own]);
-    shot.image = text_format(job->session->arena, "%s/%s.png", job->folder, candidate->mode->name);
-    const char *place = text_format(job->session->arena, "%s/%s.png", job->name, candidate->mode->name);
+    shot.image = text_format(job->campaign->arena, "%s/%s.png", job->folder, candidate->mode->name);
+    const char *place = text_format(job->campaign->arena, "%s/%s.png", job->name, candidate->mode->name);
     if (!shot.image || !place)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     Shown shown;
-    if (!runner_render(&job->session->runner, &shot, &shown, error))
+    if (!runner_render(&job->campaign->runner, &shot, &shown, error))
         return false;
     row_take_budget(candidate->row, shown.stats);
     json_decref(shown.stats);
@@ -304,7 +304,7 @@ static bool draw_picture(Job *job, Candidate *candidate, Error *error)
 
 static bool measure_all(Job *job, json_t *rows, Error *error)
 {
-    session_say(job->session, "%s: first look", job->name);
+    campaign_say(job->campaign, "%s: first look", job->name);
     if (!look(job, error) || !make_candidates(job, rows, error) || !make_reference(job, error))
         return false;
     for (u32 i = 0; i < job->candidate_count; i++) {
@@ -321,10 +321,10 @@ static bool measure_all(Job *job, json_t *rows, Error *error)
     return true;
 }
 
-bool measure_scene(Session *session, const char *scene, const char *name, json_t *rows, Error *error)
+bool measure_scene(Campaign *campaign, const char *scene, const char *name, json_t *rows, Error *error)
 {
-    Job job = {.session = session, .scene = scene, .name = name};
-    job.folder = text_format(session->arena, "%s/%s", session->out, name);
+    Job job = {.campaign = campaign, .scene = scene, .name = name};
+    job.folder = text_format(campaign->arena, "%s/%s", campaign->out, name);
     if (!job.folder || !job_temporary(&job, "shot.pfm"))
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     const bool ok = folder_make(job.folder, error) && measure_all(&job, rows, error);

@@ -7,18 +7,18 @@
 #include "arguments.h"
 #include "runner.h"
 
-typedef struct Session {
+typedef struct Campaign {
     const Arguments *arguments;
     Runner runner;
     Arena *arena;
     const char *out; // the folder of the report, still under its temporary name
-} Session;
+} Campaign;
 
 // Appends a row a mode to rows. `name` is of the scene's folder in the report, which is made. False with
 // clrt's own status as the code where it fails in every mode, with ERROR_IO and ERROR_MEMORY.
-bool measure_scene(Session *session, const char *scene, const char *name, json_t *rows, Error *error);
+bool measure_scene(Campaign *campaign, const char *scene, const char *name, json_t *rows, Error *error);
 
 // A line of progress on standard error, unless quiet.
-void session_say(const Session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void campaign_say(const Campaign *campaign, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

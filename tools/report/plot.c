@@ -26,7 +26,7 @@ static const char STYLE[] = "set encoding utf8\n"
 static FILE *open_file(const Plot *plot, const char *suffix, Error *error)
 {
     const char *path =
-        text_format(plot->session->arena, "%s/plots/%s.%s", plot->session->out, plot->name, suffix);
+        text_format(plot->campaign->arena, "%s/plots/%s.%s", plot->campaign->out, plot->name, suffix);
     FILE *file = path ? fopen(path, "wb") : NULL;
     if (!path)
         error_set(error, ERROR_MEMORY, "no memory for a name");
@@ -35,9 +35,9 @@ static FILE *open_file(const Plot *plot, const char *suffix, Error *error)
     return file;
 }
 
-bool plot_open(Plot *plot, const Session *session, const char *name, u32 width, u32 height, Error *error)
+bool plot_open(Plot *plot, const Campaign *campaign, const char *name, u32 width, u32 height, Error *error)
 {
-    *plot = (Plot){.session = session, .name = name, .width = width, .height = height};
+    *plot = (Plot){.campaign = campaign, .name = name, .width = width, .height = height};
     plot->data = open_file(plot, "dat", error);
     plot->script = plot->data ? open_file(plot, "gp", error) : NULL;
     if (!plot->script) {
@@ -62,10 +62,10 @@ void plot_put_name(FILE *file, const char *name)
 }
 
 // False where a child cannot be run for another reason than that there is no such program.
-static bool run_gnuplot(const Session *session, const char *const *argv, const char *folder, ChildEnd *end,
+static bool run_gnuplot(const Campaign *campaign, const char *const *argv, const char *folder, ChildEnd *end,
                         bool *there, Error *error)
 {
-    const char *talk = text_format(session->arena, "%s/gnuplot_talk", session->runner.folder);
+    const char *talk = text_format(campaign->arena, "%s/gnuplot_talk", campaign->runner.folder);
     if (!talk)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     const Child child = {.argv = argv, .folder = folder, .talk_path = talk};
@@ -73,34 +73,34 @@ static bool run_gnuplot(const Session *session, const char *const *argv, const c
     return *there || error->code == ERROR_IO;
 }
 
-const char *plot_find_gnuplot(const Session *session, Error *error)
+const char *plot_find_gnuplot(const Campaign *campaign, Error *error)
 {
     const char *const argv[] = {"gnuplot", "-e", "print GPVAL_VERSION", NULL};
     ChildEnd end;
     bool there;
-    if (!run_gnuplot(session, argv, NULL, &end, &there, error) || !there || end.status != 0)
+    if (!run_gnuplot(campaign, argv, NULL, &end, &there, error) || !there || end.status != 0)
         return NULL;
-    return text_format(session->arena, "%s", end.talk); // print goes to standard error
+    return text_format(campaign->arena, "%s", end.talk); // print goes to standard error
 }
 
 bool plot_close(Plot *plot, json_t *plots, const char *scene, const char *kind, Error *error)
 {
-    const Session *session = plot->session;
+    const Campaign *campaign = plot->campaign;
     const bool whole = !ferror(plot->data) && !ferror(plot->script);
     if ((fclose(plot->data) != 0) + (fclose(plot->script) != 0) > 0 || !whole)
         return error_set(error, ERROR_IO, "%s: the plot's files cannot be written", plot->name);
-    const char *folder = text_format(session->arena, "%s/plots", session->out);
-    const char *script = text_format(session->arena, "%s.gp", plot->name);
-    const char *file = text_format(session->arena, "plots/%s.svg", plot->name);
+    const char *folder = text_format(campaign->arena, "%s/plots", campaign->out);
+    const char *script = text_format(campaign->arena, "%s.gp", plot->name);
+    const char *file = text_format(campaign->arena, "plots/%s.svg", plot->name);
     if (!folder || !script || !file)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     const char *const argv[] = {"gnuplot", script, NULL};
     ChildEnd end = {.status = 0};
     bool there;
-    if (!run_gnuplot(session, argv, folder, &end, &there, error))
+    if (!run_gnuplot(campaign, argv, folder, &end, &there, error))
         return false;
     if (there && end.status != 0)
-        session_say(session, "gnuplot cannot draw %s: %s", plot->name, end.talk);
+        campaign_say(campaign, "gnuplot cannot draw %s: %s", plot->name, end.talk);
     json_array_append_new(plots, json_pack("{s:s, s:o, s:s, s:o}", "name", plot->name, "scene",
                                            doc_string(scene), "kind", kind, "file",
                                            doc_string(there && end.status == 0 ? file : NULL)));

@@ -9,7 +9,7 @@
 #include "measure.h"
 
 typedef struct Plot {
-    const Session *session;
+    const Campaign *campaign;
     const char *name; // of its files, without suffix
     u32 width, height;
     FILE *data, *script;
@@ -17,7 +17,7 @@ typedef struct Plot {
 
 // Opens NAME.dat and NAME.gp in the folder `plots` of the report, which is there. The script sets the
 // terminal and the style so far; it draws from NAME.dat beside it. False with ERROR_IO.
-bool plot_open(Plot *plot, const Session *session, const char *name, u32 width, u32 height, Error *error);
+bool plot_open(Plot *plot, const Campaign *campaign, const char *name, u32 width, u32 height, Error *error);
 
 // A name in a data file: quoted, as one column.
 void plot_put_name(FILE *file, const char *name);
@@ -28,6 +28,6 @@ void plot_put_name(FILE *file, const char *name);
 bool plot_close(Plot *plot, json_t *plots, const char *scene, const char *kind, Error *error);
 
 // Whether there is a gnuplot; its version in the arena, or NULL.
-const char *plot_find_gnuplot(const Session *session, Error *error);
+const char *plot_find_gnuplot(const Campaign *campaign, Error *error);
 
 #endif

@@ -121,14 +121,14 @@ static void put_panel(FILE *script, const json_t *rows, const char *scene, int c
     fputs("\n", script);
 }
 
-static bool draw_convergence(const Session *session, json_t *report, const char *scene, Error *error)
+static bool draw_convergence(const Campaign *campaign, json_t *report, const char *scene, Error *error)
 {
     const json_t *rows = json_object_get(report, "rows");
-    const char *name = text_format(session->arena, "%s_convergence", scene);
+    const char *name = text_format(campaign->arena, "%s_convergence", scene);
     Plot plot;
     if (!name)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
-    if (!plot_open(&plot, session, name, 1040, 440, error))
+    if (!plot_open(&plot, campaign, name, 1040, 440, error))
         return false;
     fputs("# wall_s kernel_s rmse rmse_low rmse_high spp\n", plot.data);
     size_t i;
@@ -207,14 +207,14 @@ static int put_pareto(Plot *plot, const json_t *report, const char *scene, bool 
     return blocks;
 }
 
-static bool draw_pareto(const Session *session, json_t *report, const char *scene, Error *error)
+static bool draw_pareto(const Campaign *campaign, json_t *report, const char *scene, Error *error)
 {
     const bool peers = json_array_size(json_object_get(report, "peers")) > 0;
-    const char *name = text_format(session->arena, "%s_pareto", scene);
+    const char *name = text_format(campaign->arena, "%s_pareto", scene);
     Plot plot;
     if (!name)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
-    if (!plot_open(&plot, session, name, 1040, 460, error))
+    if (!plot_open(&plot, campaign, name, 1040, 460, error))
         return false;
     fputs("# seconds rmse samples; the last block is the front\n", plot.data);
     const int blocks = put_pareto(&plot, report, scene, peers);
@@ -277,14 +277,14 @@ static void put_stages(FILE *data, const json_t *row, const char *heat)
     fputc('\n', data);
 }
 
-static bool draw_stages(const Session *session, json_t *report, const char *scene, Error *error)
+static bool draw_stages(const Campaign *campaign, json_t *report, const char *scene, Error *error)
 {
     static const char *const HEATS[] = {"cold", "warm"};
-    const char *name = text_format(session->arena, "%s_stages", scene);
+    const char *name = text_format(campaign->arena, "%s_stages", scene);
     Plot plot;
     if (!name)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
-    if (!plot_open(&plot, session, name, 1040, 400, error))
+    if (!plot_open(&plot, campaign, name, 1040, 400, error))
         return false;
     size_t i;
     json_t *row;
@@ -313,7 +313,7 @@ static bool draw_stages(const Session *session, json_t *report, const char *scen
     return plot_close(&plot, json_object_get(report, "plots"), scene, "stages", error);
 }
 
-static bool draw_scene(const Session *session, json_t *report, const char *scene, Error *error)
+static bool draw_scene(const Campaign *campaign, json_t *report, const char *scene, Error *error)
 {
     bool available = false, errors = false;
     size_t i;
@@ -324,19 +324,19 @@ static bool draw_scene(const Session *session, json_t *report, const char *scene
         available = available || json_is_null(doc_at(row, "run.unavailable"));
         errors = errors || has_error(row);
     }
-    return (!errors || (draw_convergence(session, report, scene, error) &&
-                        draw_pareto(session, report, scene, error))) &&
-           (!available || draw_stages(session, report, scene, error));
+    return (!errors || (draw_convergence(campaign, report, scene, error) &&
+                        draw_pareto(campaign, report, scene, error))) &&
+           (!available || draw_stages(campaign, report, scene, error));
 }
 
-bool plots_make(const Session *session, json_t *report, Error *error)
+bool plots_make(const Campaign *campaign, json_t *report, Error *error)
 {
-    const char *folder = text_format(session->arena, "%s/plots", session->out);
+    const char *folder = text_format(campaign->arena, "%s/plots", campaign->out);
     if (!folder)
         return error_set(error, ERROR_MEMORY, "no memory for a name");
     if (!folder_make(folder, error))
         return false;
-    doc_set(report, "settings.gnuplot", doc_string(plot_find_gnuplot(session, error)));
+    doc_set(report, "settings.gnuplot", doc_string(plot_find_gnuplot(campaign, error)));
     const char *before = "";
     bool ok = true;
     size_t i;
@@ -344,8 +344,8 @@ bool plots_make(const Session *session, json_t *report, Error *error)
     json_array_foreach (json_object_get(report, "rows"), i, row) {
         const char *scene = doc_text(row, "run.scene");
         if (ok && scene && strcmp(scene, before) != 0)
-            ok = draw_scene(session, report, scene, error);
+            ok = draw_scene(campaign, report, scene, error);
         before = scene ? scene : before;
     }
-    return ok && plots_overall_features(session, report, error) && plots_overall_ulp(session, report, error);
+    return ok && plots_overall_features(campaign, report, error) && plots_overall_ulp(campaign, report, error);
 }

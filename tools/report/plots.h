@@ -8,6 +8,6 @@
 // each scene: "convergence", "pareto", "stages"; of the report: "ulp", "features". Those without data are
 // left out. Sets settings.gnuplot to the version of gnuplot; where there is none it is null and data and
 // scripts are all.
-bool plots_make(const Session *session, json_t *report, Error *error);
+bool plots_make(const Campaign *campaign, json_t *report, Error *error);
 
 #endif

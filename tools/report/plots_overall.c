@@ -20,14 +20,14 @@ static void put_feature(FILE *data, const json_t *one)
     fputc('\n', data);
 }
 
-bool plots_overall_features(const Session *session, json_t *report, Error *error)
+bool plots_overall_features(const Campaign *campaign, json_t *report, Error *error)
 {
     const json_t *features = json_object_get(report, "features");
     Plot plot;
     const u32 count = (u32)json_array_size(features);
     if (count == 0)
         return true;
-    if (!plot_open(&plot, session, "features", 860, 120 + 24 * count, error))
+    if (!plot_open(&plot, campaign, "features", 860, 120 + 24 * count, error))
         return false;
     fputs("# feature added_ns mad unused_added_ns mad\n", plot.data);
     size_t i;
@@ -65,7 +65,7 @@ static void put_shape(FILE *data, const json_t *shape)
     fputs("\n\n", data);
 }
 
-bool plots_overall_ulp(const Session *session, json_t *report, Error *error)
+bool plots_overall_ulp(const Campaign *campaign, json_t *report, Error *error)
 {
     enum { COLUMNS = 3, PANEL_WIDTH = 340, PANEL_HEIGHT = 190 };
     const json_t *shapes = doc_at(report, "ulp.shapes");
@@ -73,7 +73,7 @@ bool plots_overall_ulp(const Session *session, json_t *report, Error *error)
     Plot plot;
     if (count == 0)
         return true;
-    if (!plot_open(&plot, session, "ulp", COLUMNS * PANEL_WIDTH, lines * PANEL_HEIGHT, error))
+    if (!plot_open(&plot, campaign, "ulp", COLUMNS * PANEL_WIDTH, lines * PANEL_HEIGHT, error))
         return false;
     fprintf(
         plot.script,

@@ -5,7 +5,7 @@
 #include "measure.h"
 
 // As plots_make; nothing is drawn where the report has no such data.
-bool plots_overall_features(const Session *session, json_t *report, Error *error);
-bool plots_overall_ulp(const Session *session, json_t *report, Error *error);
+bool plots_overall_features(const Campaign *campaign, json_t *report, Error *error);
+bool plots_overall_ulp(const Campaign *campaign, json_t *report, Error *error);
 
 #endif

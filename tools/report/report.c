@@ -91,30 +91,30 @@ static json_t *settings_of(const Arguments *arguments)
                      "pixels_per_degree_flip", 67, "gnuplot");
 }
 
-static bool measure_all(Session *session, json_t *report, Error *error)
+static bool measure_all(Campaign *campaign, json_t *report, Error *error)
 {
-    const Arguments *arguments = session->arguments;
+    const Arguments *arguments = campaign->arguments;
     json_t *rows = json_object_get(report, "rows");
     for (u32 i = 0; i < arguments->scene_count; i++)
-        if (!runner_check(&session->runner, arguments->scenes[i], error))
+        if (!runner_check(&campaign->runner, arguments->scenes[i], error))
             return false;
-    if (arguments->against && !runner_check(&session->runner, arguments->against, error))
+    if (arguments->against && !runner_check(&campaign->runner, arguments->against, error))
         return false;
     if (arguments->self_test) {
-        session_say(session, "self-test");
-        json_t *self_test = runner_self_test(&session->runner, error);
+        campaign_say(campaign, "self-test");
+        json_t *self_test = runner_self_test(&campaign->runner, error);
         if (!self_test)
             return false;
         json_object_set_new(report, "self_test", self_test);
     }
     for (u32 i = 0; i < arguments->scene_count; i++) {
-        const char *name = name_of(arguments, i, session->arena);
+        const char *name = name_of(arguments, i, campaign->arena);
         if (!name)
             return no_memory(error);
-        if (!measure_scene(session, arguments->scenes[i], name, rows, error))
+        if (!measure_scene(campaign, arguments->scenes[i], name, rows, error))
             return false;
     }
-    return !arguments->features || feature_costs_measure(session, json_object_get(report, "features"), error);
+    return !arguments->features || feature_costs_measure(campaign, json_object_get(report, "features"), error);
 }
 
 // The number of cases that failed, in every row's health.
@@ -128,10 +128,10 @@ static void spread_self_test(json_t *report)
             doc_set(row, "health.self_test", json_string(failed > 0 ? "failed" : "passed"));
 }
 
-static bool write_all(const Session *session, json_t *report, Error *error)
+static bool write_all(const Campaign *campaign, json_t *report, Error *error)
 {
-    const char *out = session->out;
-    Arena *arena = session->arena;
+    const char *out = campaign->out;
+    Arena *arena = campaign->arena;
     const char *document = text_format(arena, "%s/report.json", out),
                *lines = text_format(arena, "%s/rows.jsonl", out);
     const char *csv = text_format(arena, "%s/report.csv", out);
@@ -139,9 +139,9 @@ static bool write_all(const Session *session, json_t *report, Error *error)
     if (!document || !lines || !csv || !convergence)
         return no_memory(error);
     const json_t *rows = json_object_get(report, "rows");
-    return plots_make(session, report, error) && doc_write(report, false, document, error) &&
+    return plots_make(campaign, report, error) && doc_write(report, false, document, error) &&
            doc_write(rows, true, lines, error) && csv_write_rows(rows, csv, error) &&
-           csv_write_convergence(rows, convergence, error) && html_write(session, report, error);
+           csv_write_convergence(rows, convergence, error) && html_write(campaign, report, error);
 }
 
 static bool read_extras(const Arguments *arguments, json_t *report, Error *error)
@@ -160,17 +160,17 @@ static bool read_extras(const Arguments *arguments, json_t *report, Error *error
     return ulp && json_object_set_new(report, "ulp", ulp) == 0;
 }
 
-static bool run(Session *session, Error *error)
+static bool run(Campaign *campaign, Error *error)
 {
     json_t *report =
         json_pack("{s:s, s:o, s:[], s:[], s:[], s:n, s:n, s:[]}", "schema", ROW_SCHEMA, "settings",
-                  settings_of(session->arguments), "rows", "features", "peers", "ulp", "self_test", "plots");
+                  settings_of(campaign->arguments), "rows", "features", "peers", "ulp", "self_test", "plots");
     bool ok = report != NULL || no_memory(error);
-    ok = ok && read_extras(session->arguments, report, error) && measure_all(session, report, error);
+    ok = ok && read_extras(campaign->arguments, report, error) && measure_all(campaign, report, error);
     if (ok)
         spread_self_test(report);
-    ok = ok && write_all(session, report, error) &&
-         folder_replace(session->out, session->arguments->out, session->arena, error);
+    ok = ok && write_all(campaign, report, error) &&
+         folder_replace(campaign->out, campaign->arguments->out, campaign->arena, error);
     if (ok) {
         table_print(report, stdout);
         ok = fflush(stdout) == 0 || error_set(error, ERROR_IO, "the table cannot be written");
@@ -181,23 +181,23 @@ static bool run(Session *session, Error *error)
 
 bool report_make(const Arguments *arguments, const char *program, Arena *arena, Error *error)
 {
-    Session session = {.arguments = arguments, .arena = arena};
+    Campaign campaign = {.arguments = arguments, .arena = arena};
     const char *folder = getenv("TMPDIR");
     char *work = text_format(arena, "%s/clrt-report-XXXXXX", folder && *folder ? folder : "/tmp");
-    session.out = text_format(arena, "%s.new-%ld", arguments->out, (long)getpid());
-    session.runner = (Runner){.clrt = arguments->clrt ? arguments->clrt : find_clrt(program, arena),
+    campaign.out = text_format(arena, "%s.new-%ld", arguments->out, (long)getpid());
+    campaign.runner = (Runner){.clrt = arguments->clrt ? arguments->clrt : find_clrt(program, arena),
                               .device = arguments->device,
                               .folder = work,
                               .arena = arena};
-    if (!work || !session.out || !session.runner.clrt)
+    if (!work || !campaign.out || !campaign.runner.clrt)
         return no_memory(error);
     if (!check_out(arguments->out, arena, error))
         return false;
     child_hold_signals();
     if (!mkdtemp(work))
         return error_set(error, ERROR_IO, "%s: cannot be made", work);
-    const bool ok = folder_make(session.out, error) && run(&session, error);
-    folder_remove(session.out);
+    const bool ok = folder_make(campaign.out, error) && run(&campaign, error);
+    folder_remove(campaign.out);
     folder_remove(work);
     return ok;
 }
