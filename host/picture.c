@@ -139,6 +139,7 @@ static bool identify(Picture *picture, Error *error)
         .device = &picture->devices->devices[picture->device_index],
         .math = math_mode_name(options->math),
         .bits = options->bits,
+        .clamp = options->clamp,
         .cropped = options->crop_given,
         .left = picture->left,
         .top = picture->top,
@@ -182,9 +183,12 @@ static u64 ray_count(const RenderStats *stats)
 static bool take_rows(Picture *picture, const RenderRows *rows, Error *error)
 {
     const size_t width = picture->width;
-    for (u32 y = 0; y < rows->count; y++)
+    for (u32 y = 0; y < rows->count; y++) {
         budget_pool_add_row(&picture->pool, rows->rgb + 3 * width * y, rows->m2 ? rows->m2 + width * y : NULL,
                             picture->width);
+        budget_pool_add_clamped(&picture->pool, rows->clamped ? rows->clamped + 4 * width * y : NULL,
+                                picture->width);
+    }
     return rows->count == 0 || output_write_rows(picture->output, rows->rgb, rows->count, error);
 }
 
@@ -206,11 +210,11 @@ static bool write_rows(Picture *picture, Render *render, Error *error)
 static bool state_error(Picture *picture, const Render *render, Error *error)
 {
     const bool floats = output_ignores_display_settings(picture->options->out);
-    picture->budget = budget_make(picture->scene, &picture->bounds, &picture->pool,
+    picture->budget = budget_make(picture->scene, &picture->bounds, &picture->pool, picture->options->clamp,
                                   floats ? 0 : picture->options->bits, NAN);
     IdentityTexts texts;
-    identity_closing_texts(picture->layout->features, render_stats(render)->program_hash, &picture->budget,
-                           &texts);
+    const RenderStats *stats = render_stats(render);
+    identity_closing_texts(stats->features, stats->program_hash, &picture->budget, &texts);
     return output_add_texts(picture->output, texts.texts, texts.count, error);
 }
 
@@ -234,7 +238,6 @@ static bool report(Picture *picture, const Render *render, Error *error)
     stats->device_name = device_info(picture->device)->name;
     stats->device_bytes_peak = device_bytes_peak(picture->device);
     stats->render = render_stats(render);
-    stats->layout = picture->layout;
     stats->identity = &picture->identity;
     stats->budget = &picture->budget;
     if (picture->options->stats_file)
@@ -254,6 +257,7 @@ static RenderJob render_job(const Picture *picture)
         .height = picture->height,
         .memory_limit = picture->options->memory,
         .math = picture->options->math,
+        .clamp = picture->options->clamp,
     };
 }
 

@@ -36,7 +36,7 @@ static void add_up(ErrorBudget *budget, const Scene *scene)
     budget->covers_sampling = budget->sampling.assumption != SAMPLING_NONE;
     budget->covers_arithmetic = !isnan(budget->arithmetic);
     const bool exact = scene->image.samples == 1 && !is_random(scene);
-    f64 sum = budget->bounds.depth + budget->bounds.min_weight;
+    f64 sum = budget->bounds.depth + budget->bounds.min_weight + budget->clamp.rmse;
     if (!exact)
         sum += budget->sampling.rmse;
     if (budget->covers_arithmetic)
@@ -44,13 +44,42 @@ static void add_up(ErrorBudget *budget, const Scene *scene)
     budget->total = budget->nan + budget->infinite > 0 ? NAN : sum;
 }
 
-ErrorBudget budget_make(const Scene *scene, const SceneBounds *bounds, const BudgetPool *pool, u32 bits,
-                        f64 arithmetic)
+// A limit bounds samples of any scene; not what a filter with negative lobes makes of them.
+static SceneBounds bounds_within(const Scene *scene, const SceneBounds *bounds, f64 limit)
+{
+    SceneBounds within = *bounds;
+    if (limit == 0 || (scene->image.samples > 1 && scene->image.filter == FILTER_MITCHELL))
+        return within;
+    for (u32 c = 0; c < 3; c++)
+        within.radiance[c] = fmin(within.radiance[c], limit);
+    within.unbounded = NULL;
+    return within;
+}
+
+static ClampBudget clamp_budget(const BudgetPool *pool, u32 samples, f64 limit)
+{
+    if (limit == 0 || pool->pixels == 0)
+        return (ClampBudget){.limit = limit};
+    const f64 values = 3 * (f64)pool->pixels, removed = pool->clamped / samples / values;
+    const f64 whole = pool->radiance / values + removed;
+    return (ClampBudget){
+        .limit = limit,
+        .removed = removed,
+        .share = whole > 0 ? removed / whole : 0,
+        .rmse = sqrt(pool->clamped_squared / values) / samples,
+        .clamped = pool->clamped_samples,
+        .samples = pool->pixels * samples,
+    };
+}
+
+ErrorBudget budget_make(const Scene *scene, const SceneBounds *bounds, const BudgetPool *pool, f32 clamp,
+                        u32 bits, f64 arithmetic)
 {
     ErrorBudget budget = {
         .confidence = BUDGET_CONFIDENCE,
         .estimator = estimator_of(scene),
-        .bounds = *bounds,
+        .bounds = bounds_within(scene, bounds, (f64)clamp),
+        .clamp = clamp_budget(pool, scene->image.samples, (f64)clamp),
         .arithmetic = arithmetic,
         .quantisation = bits ? 0.5 / (exp2(bits) - 1) : 0,
         .nan = pool->nan,

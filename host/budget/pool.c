@@ -43,3 +43,18 @@ void budget_pool_add_row(BudgetPool *pool, const f32 *rgb, const f32 *m2, u32 wi
         add_m2(pool, m2, width);
     pool->pixels += width;
 }
+
+void budget_pool_add_clamped(BudgetPool *pool, const f32 *clamped, u32 width)
+{
+    f64 sum = 0, squares = 0;
+    for (size_t i = 0; clamped && i < width; i++) {
+        const f32 *lost = clamped + 4 * i;
+        for (u32 c = 0; c < 3; c++) {
+            sum += (f64)lost[c];
+            squares += (f64)lost[c] * (f64)lost[c];
+        }
+        pool->clamped_samples += (u64)lost[3];
+    }
+    pool->clamped += sum;
+    pool->clamped_squared += squares;
+}

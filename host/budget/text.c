@@ -39,11 +39,21 @@ static void print_sampling(const ErrorBudget *budget, const char *indent, FILE *
         fprintf(stream, "errors taken for normal, no bound for %s\n", budget->bounds.unbounded);
 }
 
+static void print_clamp(const ClampBudget *clamp, const char *indent, FILE *stream)
+{
+    fprintf(stream, "%sclamp         %.6g: bias of the mean %.3g (%.3g %%), rmse %.3g, ", indent, clamp->limit,
+            -clamp->removed, 100 * clamp->share, clamp->rmse);
+    fprintf(stream, "%llu of %llu samples\n", (unsigned long long)clamp->clamped,
+            (unsigned long long)clamp->samples);
+}
+
 void budget_print(const ErrorBudget *budget, const char *indent, FILE *stream)
 {
     print_sampling(budget, indent, stream);
     fprintf(stream, "%smax_depth     <= %s\n", indent, part(budget->bounds.depth, "unknown").text);
     fprintf(stream, "%smin_weight    <= %s\n", indent, part(budget->bounds.min_weight, "unknown").text);
+    if (budget->clamp.limit > 0)
+        print_clamp(&budget->clamp, indent, stream);
     fprintf(stream, "%sarithmetic    %s\n", indent, part(budget->arithmetic, "not measured").text);
     fprintf(stream, "%squantisation  <= %s of the encoded range\n", indent,
             part(budget->quantisation, "unknown").text);
@@ -64,11 +74,18 @@ void budget_summary(const ErrorBudget *budget, char *text, size_t size)
         snprintf(samples, sizeof samples, "rmse<=%.3g largest<=%.3g mean=%.6g in [%.6g,%.6g] (%g%%, %s)",
                  sampling->rmse, sampling->largest, sampling->mean, sampling->mean_low, sampling->mean_high,
                  100 * budget->confidence, budget_assumption(budget));
+    char clamped[128] = "";
+    if (budget->clamp.limit > 0)
+        snprintf(clamped, sizeof clamped,
+                 " clamp %.9g: bias of the mean %.3g, rmse %.3g, %llu of %llu samples;", budget->clamp.limit,
+                 -budget->clamp.removed, budget->clamp.rmse, (unsigned long long)budget->clamp.clamped,
+                 (unsigned long long)budget->clamp.samples);
     snprintf(text, size,
-             "sampling %s; max_depth<=%s; min_weight<=%s; arithmetic %s; quantisation<=%s; nan %llu, "
+             "sampling %s; max_depth<=%s; min_weight<=%s;%s arithmetic %s; quantisation<=%s; nan %llu, "
              "infinite %llu, negative %llu",
              samples, part(budget->bounds.depth, "unknown").text,
-             part(budget->bounds.min_weight, "unknown").text, part(budget->arithmetic, "not measured").text,
-             part(budget->quantisation, "unknown").text, (unsigned long long)budget->nan,
-             (unsigned long long)budget->infinite, (unsigned long long)budget->negative);
+             part(budget->bounds.min_weight, "unknown").text, clamped,
+             part(budget->arithmetic, "not measured").text, part(budget->quantisation, "unknown").text,
+             (unsigned long long)budget->nan, (unsigned long long)budget->infinite,
+             (unsigned long long)budget->negative);
 }

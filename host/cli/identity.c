@@ -56,6 +56,8 @@ static void add_options(IdentityTexts *texts, const Identity *identity)
     if (scene->environment.present)
         write_text(texts, " --environment-lighting %s",
                    scene->render.environment_lighting == ENVIRONMENT_PREFILTERED ? "prefiltered" : "sampled");
+    if (identity->clamp > 0)
+        write_text(texts, " --clamp %.9g", (f64)identity->clamp);
     if (identity->cropped)
         write_text(texts, " --crop %u,%u,%u,%u", identity->left, identity->top, identity->width,
                    identity->height);

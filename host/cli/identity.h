@@ -16,6 +16,7 @@ typedef struct Identity {
     const DeviceInfo *device;
     const char *math;       // as --math has it
     u32 bits;               // of a PNG
+    f32 clamp;              // RenderJob.clamp
     bool cropped;
     u32 left, top, width, height; // of the crop
 } Identity;

@@ -36,19 +36,30 @@ json_t *identity_json(const Identity *identity, u64 program_hash)
                      (int)identity->left, (int)identity->top, (int)identity->width, (int)identity->height);
 }
 
+// null without a limit.
+static json_t *clamp_json(const ClampBudget *clamp)
+{
+    if (!(clamp->limit > 0))
+        return json_null();
+    return json_pack("{s:f, s:o, s:o, s:o, s:I, s:I}", "limit", clamp->limit, "bias_of_mean",
+                     number(-clamp->removed), "share", number(clamp->share), "e_clamp", number(clamp->rmse),
+                     "clamped_samples", (json_int_t)clamp->clamped, "samples", (json_int_t)clamp->samples);
+}
+
 json_t *budget_json(const ErrorBudget *budget)
 {
     const SamplingBudget *sampling = &budget->sampling;
     const f64 *radiance = budget->bounds.radiance;
     return json_pack(
-        "{s:f, s:s, s:o, s:[ooo], s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:b}", "confidence",
-        budget->confidence, "estimator", budget->estimator, "assumption",
+        "{s:f, s:s, s:o, s:[ooo], s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:b}",
+        "confidence", budget->confidence, "estimator", budget->estimator, "assumption",
         text_or_null(budget_assumption(budget)), "radiance_bound", number(radiance[0]), number(radiance[1]),
         number(radiance[2]), "unbounded_by", text_or_null(budget->bounds.unbounded), "e_sampling",
         number(sampling->rmse), "e_sampling_largest", number(sampling->largest), "standard_error",
         number(sampling->standard_error), "mean", number(sampling->mean), "mean_low",
         number(sampling->mean_low), "mean_high", number(sampling->mean_high), "e_depth",
-        number(budget->bounds.depth), "e_min_weight", number(budget->bounds.min_weight), "e_arith",
+        number(budget->bounds.depth), "e_min_weight", number(budget->bounds.min_weight), "clamp",
+        clamp_json(&budget->clamp), "e_arith",
         number(budget->arithmetic), "e_quant", number(budget->quantisation), "e_total", number(budget->total),
         "total_has_sampling", budget->covers_sampling, "total_has_arith", budget->covers_arithmetic);
 }

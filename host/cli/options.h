@@ -34,6 +34,7 @@ typedef struct Options {
     u32 depth;                        // 0..64
     bool environment_lighting_given;
     EnvironmentLighting environment_lighting;
+    f32 clamp;                        // radiance, above 0; 0: not given
     u32 crop_x, crop_y;               // 0..65535
     u32 crop_width, crop_height;      // 1..65536
     f64 exposure;                     // stops

@@ -51,7 +51,7 @@ void stats_print(const RunStats *stats, FILE *stream)
     fprintf(stream, "launches  %u, %u rows a band, %u tiles in flight\nfeatures ", render->launches,
             render->band_rows, render->groups);
     for (u32 i = 0; i < FEATURE_COUNT; i++)
-        if (features_have(stats->layout->features, (Feature)i))
+        if (features_have(render->features, (Feature)i))
             fprintf(stream, " %s", feature_name((Feature)i));
     fputs("\nerror budget\n", stream);
     budget_print(stats->budget, "  ", stream);
@@ -100,7 +100,7 @@ static json_t *to_json(const RunStats *stats)
                      bytes_to_json(stats), "rays", rays_to_json(render), "rays_per_second",
                      rays_a_second(render), "launches", (int)render->launches, "band_rows",
                      (int)render->band_rows, "tiles_in_flight", (int)render->groups, "features",
-                     features_to_json(stats->layout->features), "run",
+                     features_to_json(render->features), "run",
                      identity_json(stats->identity, render->program_hash), "budget",
                      budget_json(stats->budget), "health", health_json(stats->budget));
 }

@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "budget/budget.h"
 #include "cli/identity.h"
-#include "layout/layout.h"
 #include "render/render.h"
 
 typedef struct RunStats {
@@ -21,7 +20,6 @@ typedef struct RunStats {
     const char *device_name;
     u64 device_bytes_peak;
     const RenderStats *render;
-    const Layout *layout;
     const Identity *identity;
     const ErrorBudget *budget;
 } RunStats;

@@ -117,6 +117,15 @@ static const char *take_environment_lighting(Options *options, const char *value
     return NULL;
 }
 
+static const char *take_clamp(Options *options, const char *value)
+{
+    f64 limit;
+    if (!read_real(value, &limit) || !(limit >= (f64)FLT_MIN))
+        return "a radiance above 0";
+    options->clamp = (f32)limit;
+    return NULL;
+}
+
 static const char *take_crop(Options *options, const char *value)
 {
     u32 crop[4];
@@ -259,6 +268,8 @@ const Option OPTIONS[] = {
     {0, "depth", VALUE_REQUIRED, "N", GROUP_IMAGE, "largest depth of a ray, 0 to 64", take_depth},
     {0, "environment-lighting", VALUE_REQUIRED, "HOW", GROUP_IMAGE,
      "light of the environment on pbr materials: sampled or prefiltered", take_environment_lighting},
+    {0, "clamp", VALUE_REQUIRED, "X", GROUP_IMAGE,
+     "limit of the brightest channel of each sample: fewer fireflies, biased [none]", take_clamp},
     {0, "crop", VALUE_REQUIRED, "X,Y,W,H", GROUP_IMAGE, "only these pixels, as an image of W x H [all]",
      take_crop},
     {0, "bits", VALUE_REQUIRED, "8|16", GROUP_OUTPUT, "bits of a channel of a PNG [8]", take_bits},

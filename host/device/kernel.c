@@ -128,6 +128,11 @@ bool kernel_set_u32(Kernel *kernel, const char *name, u32 value, Error *error)
     return set_argument(kernel, name, sizeof value, &value, error);
 }
 
+bool kernel_set_f32(Kernel *kernel, const char *name, f32 value, Error *error)
+{
+    return set_argument(kernel, name, sizeof value, &value, error);
+}
+
 bool kernel_set_local(Kernel *kernel, const char *name, size_t bytes, Error *error)
 {
     return set_argument(kernel, name, bytes, NULL, error);

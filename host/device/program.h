@@ -22,6 +22,7 @@ void kernel_destroy(Kernel *kernel);
 // are, where the kernel has no such argument or where it is of another size.
 bool kernel_set_buffer(Kernel *kernel, const char *name, const Buffer *buffer, Error *error);
 bool kernel_set_u32(Kernel *kernel, const char *name, u32 value, Error *error);
+bool kernel_set_f32(Kernel *kernel, const char *name, f32 value, Error *error);
 // Local memory of `bytes` bytes for each work-group.
 bool kernel_set_local(Kernel *kernel, const char *name, size_t bytes, Error *error);
 

@@ -18,18 +18,35 @@ static f32 limited(f64 x)
     return x < FLT_MAX ? (f32)x : FLT_MAX;
 }
 
-// Fills the texels, 3 numbers each; returns the largest sum of the three.
-static f64 fill_texels(const Environment *environment, f32 *texels)
+// An environment as it lights a scene: a picture, or one color everywhere.
+typedef struct Sky {
+    const Bitmap *bitmap; // NULL: the color
+    Vec3 factors;
+    u32 width, height;
+} Sky;
+
+static Sky sky_of(const Scene *scene, bool path)
 {
-    const Bitmap *bitmap = environment->bitmap;
-    const f64 factors[3] = { environment->intensity.x, environment->intensity.y, environment->intensity.z };
+    const Environment *environment = &scene->environment;
+    if (environment->present && environment->bitmap)
+        return (Sky){ environment->bitmap, environment->intensity, environment->bitmap->width,
+                      environment->bitmap->height };
+    return (Sky){ NULL, path ? scene->background : (Vec3){ 0, 0, 0 }, 1, 1 };
+}
+
+// Fills the texels, 3 numbers each; returns the largest sum of the three.
+static f64 fill_texels(const Sky *sky, f32 *texels)
+{
+    const Bitmap *bitmap = sky->bitmap;
+    const f64 factors[3] = { sky->factors.x, sky->factors.y, sky->factors.z };
     f64 largest = 0;
 #pragma omp parallel for reduction(max : largest)
-    for (u32 y = 0; y < bitmap->height; y++) {
-        f32 *texel = texels + 3 * (u64)y * bitmap->width;
-        for (u32 x = 0; x < bitmap->width; x++, texel += 3) {
+    for (u32 y = 0; y < sky->height; y++) {
+        f32 *texel = texels + 3 * (u64)y * sky->width;
+        for (u32 x = 0; x < sky->width; x++, texel += 3) {
             for (u32 c = 0; c < 3; c++)
-                texel[c] = limited(factors[c] * bitmap_value(bitmap, x, y, bitmap->channels == 3 ? c : 0));
+                texel[c] = limited(factors[c] * (bitmap ? bitmap_value(bitmap, x, y, bitmap->channels == 3 ? c : 0)
+                                                        : 1));
             largest = fmax(largest, (f64)texel[0] + (f64)texel[1] + (f64)texel[2]);
         }
     }
@@ -115,18 +132,17 @@ static bool add_levels(Layout *layout, Error *error)
            error_set(error, ERROR_MEMORY, "no memory for the prefiltered environment");
 }
 
-static bool bright(const Environment *environment)
+static bool bright(const Sky *sky)
 {
-    const Vec3 v = environment->intensity;
-    return environment->present && environment->bitmap && (v.x > 0 || v.y > 0 || v.z > 0);
+    return sky->factors.x > 0 || sky->factors.y > 0 || sky->factors.z > 0;
 }
 
 bool environment_add(Layout *layout, const Scene *scene, bool lit, Error *error)
 {
-    const Environment *environment = &scene->environment;
-    if (!bright(environment))
+    const Sky sky = sky_of(scene, layout->path.on);
+    if (!bright(&sky))
         return true;
-    const u32 width = environment->bitmap->width, height = environment->bitmap->height;
+    const u32 width = sky.width, height = sky.height;
     const u64 count = 3 * (u64)width * height;
     if (count > NUMBERS_MAX)
         return error_set(error, ERROR_MEMORY, "the environment has %llu texels, too many",
@@ -138,15 +154,16 @@ bool environment_add(Layout *layout, const Scene *scene, bool lit, Error *error)
         return error_set(error, ERROR_MEMORY, "no memory for the environment of %u x %u texels", width,
                          height);
     EnvironmentRecord *record = layout->environment;
-    const f64 turn = 0.5 + environment->rotate / 360,
-              largest = fill_texels(environment, layout->environment_texels);
+    const f64 turn = 0.5 + scene->environment.rotate / 360,
+              largest = fill_texels(&sky, layout->environment_texels);
+    const bool prefiltered =
+        scene->render.environment_lighting == ENVIRONMENT_PREFILTERED && !layout->path.on;
     record->width = width;
     record->height = height;
     record->turn = (f32)(turn - floor(turn));
     record->scale = (f32)fmin(1 / fmax(largest, 1e-30), 1e30);
     if (largest > 0 && lit)
-        return scene->render.environment_lighting == ENVIRONMENT_PREFILTERED ? add_levels(layout, error)
-                                                                             : add_tables(layout, error);
+        return prefiltered ? add_levels(layout, error) : add_tables(layout, error);
     if (!(largest > 0)) {
         page_free(layout->environment, sizeof *layout->environment);
         page_free(layout->environment_texels, count * sizeof *layout->environment_texels);

@@ -19,6 +19,9 @@ static inline FeatureSet feature_bit(Feature feature)
     return (FeatureSet)1 << feature;
 }
 
+// What a render is asked for besides its scene: no layout has them.
+#define FEATURES_OF_RENDERS feature_bit(FEATURE_CLAMP)
+
 static inline bool features_have(FeatureSet set, Feature feature)
 {
     return (set & feature_bit(feature)) != 0;

@@ -22,7 +22,7 @@ static bool positive(Vec3 v)
 static Vec3 ambient_light(const Scene *scene, const Material *material)
 {
     const bool lit = material->kind == MATERIAL_PBR && scene->environment.present;
-    return lit ? (Vec3){ 0, 0, 0 } : scene->ambient;
+    return lit || scene->render.integrator == INTEGRATOR_PATH ? (Vec3){ 0, 0, 0 } : scene->ambient;
 }
 
 // Indices of the textures of a used material that can be seen; returns how many.
@@ -37,7 +37,7 @@ static u32 seen_textures(const Scene *scene, const Material *material, bool ligh
 // Whether some light can shine on surfaces of the material.
 static bool material_lit(const Layout *layout, const Material *material)
 {
-    return lights_direct(layout) || (material->kind == MATERIAL_PBR && layout->environment);
+    return layout->path.on || lights_direct(layout) || (material->kind == MATERIAL_PBR && layout->environment);
 }
 
 // Features that one used material brings. lights: as material_lit.
@@ -66,11 +66,26 @@ static FeatureSet material_features(const Scene *scene, const Material *material
         set |= feature_bit(FEATURE_REFLECT); // also what transmits: total internal reflection
     if (deep && transmits)
         set |= feature_bit(FEATURE_TRANSMIT);
-    if (deep && transmits && mirrors)
+    if (deep && transmits && mirrors && scene->render.integrator != INTEGRATOR_PATH)
         set |= feature_bit(FEATURE_BRANCHING);
     if (deep && (pbr ? transmits : material->fresnel && (mirrors || transmits)))
         set |= feature_bit(FEATURE_FRESNEL);
     return set;
+}
+
+// A background lights surfaces as an environment does.
+static PathLayout path_layout(const Scene *scene, const Placer *placer)
+{
+    const LightSampling sampling = scene->render.light_sampling;
+    PathLayout path = { .on = scene->render.integrator == INTEGRATOR_PATH &&
+                              (placer->top.count > 0 || placer->planes.count > 0) };
+    path.techniques = LIGHTS_BY_LIGHTS | LIGHTS_BY_SURFACES;
+    if (sampling == LIGHT_SAMPLING_LIGHTS || !scene->render.shadows)
+        path.techniques = LIGHTS_BY_LIGHTS;
+    else if (sampling == LIGHT_SAMPLING_SURFACES)
+        path.techniques = LIGHTS_BY_SURFACES;
+    path.area_materials = scene->material_count;
+    return path;
 }
 
 static LightUse light_use(const Scene *scene, const Placer *placer)
@@ -115,6 +130,10 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
         set |= feature_bit(FEATURE_BVH);
     if (surfaces)
         set |= lights_features(layout, scene->render.shadows);
+    if (layout->path.on)
+        set |= feature_bit(FEATURE_PATH) | feature_bit(FEATURE_HIT_RANDOM);
+    if (layout->light_table)
+        set |= feature_bit(FEATURE_MANY_LIGHTS);
     if (layout->environment)
         set |= feature_bit(FEATURE_ENVIRONMENT);
     if (surfaces && layout->environment_levels)
@@ -124,7 +143,7 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
     for (u32 i = 0; i < scene->material_count; i++)
         if (placer->material_used[i])
             set |= material_features(scene, &scene->materials[i], material_lit(layout, &scene->materials[i]));
-    const bool shadows = scene->render.shadows && lights_shine(layout);
+    const bool shadows = scene->render.shadows && lights_shine(layout) && !layout->path.on;
     for (u32 i = 0; shadows && i < scene->material_count; i++)
         if (placer->material_used[i] && material_transmits(&scene->materials[i]))
             set |= transmittance_features(&scene->materials[i]);
@@ -132,7 +151,7 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
         set &= ~feature_bit(FEATURE_MESH_UVS);
     if (!features_have(set, FEATURE_LIGHTS))
         set &= ~feature_bit(FEATURE_TERMINATOR);
-    if (positive(scene->background))
+    if (positive(scene->background) && !layout->path.on)
         set |= feature_bit(FEATURE_BACKGROUND);
     if (scene->camera.orthographic)
         set |= feature_bit(FEATURE_ORTHOGRAPHIC);
@@ -177,12 +196,12 @@ static bool add_filter(Layout *layout, const Scene *scene, Error *error)
     return true;
 }
 
-static void finish(Layout *layout)
+static bool finish(Layout *layout, Error *error)
 {
-    lights_finish(layout);
     layout->params.plane_count = layout->plane_count;
     layout->params.root = layout->root;
     layout->params.mesh_run_count = layout->mesh_run_count;
+    return lights_finish(layout, error);
 }
 
 // Textures, and the texels of those that can be seen.
@@ -214,16 +233,18 @@ Layout *layout_create(const Scene *scene, Error *error)
     }
     layout->params = camera_params(scene);
     layout->root = NO_INDEX;
-    bool ok = placer_run(&placer, scene, error) && add_records(layout, scene, &placer, error) &&
-              environment_add(layout, scene, light_use(scene, &placer).pbr, error) &&
-              lights_add(layout, scene, light_use(scene, &placer), error);
+    bool ok = placer_run(&placer, scene, error) && add_records(layout, scene, &placer, error);
+    if (ok) {
+        layout->path = path_layout(scene, &placer);
+        const LightUse use = light_use(scene, &placer);
+        ok = environment_add(layout, scene, use.pbr || layout->path.on, error) &&
+             lights_add(layout, scene, use, error);
+    }
     if (ok) {
         layout->features = scene_features(scene, layout, &placer);
         ok = add_filter(layout, scene, error) && add_textures(layout, scene, &placer, error) &&
-             hierarchies_add(layout, &placer, error);
+             hierarchies_add(layout, &placer, error) && finish(layout, error);
     }
-    if (ok)
-        finish(layout);
     placer_destroy(&placer);
     if (!ok) {
         layout_destroy(layout);
@@ -250,6 +271,7 @@ void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS])
         { "textures", l->textures, l->texture_count * sizeof *l->textures },
         { "texels", l->texels, l->texel_bytes },
         { "lights", l->lights, l->light_count * sizeof *l->lights },
+        { "light_table", l->light_table, l->light_table ? l->light_count * sizeof *l->light_table : 0 },
         { "environment", l->environment, l->environment ? sizeof *l->environment : 0 },
         { "environment_texels", l->environment_texels,
           l->environment_texel_count * sizeof *l->environment_texels },

@@ -11,12 +11,20 @@
 #include "shared/environment.h"
 #include "shared/instance.h"
 #include "shared/light.h"
+#include "shared/light_table.h"
 #include "shared/material.h"
 #include "shared/mesh.h"
 #include "shared/object_frame.h"
 #include "shared/params.h"
 #include "shared/texture.h"
-#include "shared/texture.h"
+
+// What the kernels ask about paths (kernels/stages/path_scatter.h).
+typedef struct PathLayout {
+    bool on;            // the path integrator, in a scene that has surfaces
+    u32 techniques;     // LIGHTS_BY_X
+    u32 light_choices;  // lights that are looked at for each shadow ray
+    u32 area_materials; // index of the material of the first area light
+} PathLayout;
 
 // All arrays are in whole pages (base/memory.h), so that devices can use them in place; those of no members
 // are NULL.
@@ -49,8 +57,10 @@ typedef struct Layout {
     u32 texture_count;
     u8 *texels; // of the images that can be seen, behind the tables of levels (shared/texture.h)
     u64 texel_bytes;
-    LightRecord *lights;
+    LightRecord *lights; // under the path integrator area lights first, the environment last
     u32 light_count;
+    LightTableEntry *light_table; // one a light, where paths do not look at all of them
+    PathLayout path;
     EnvironmentRecord *environment; // NULL: none that shines
     f32 *environment_texels;        // shared/environment.h
     u64 environment_texel_count;    // in numbers
@@ -73,7 +83,7 @@ typedef struct LayoutArray {
     u64 bytes;
 } LayoutArray;
 
-#define LAYOUT_ARRAYS 20
+#define LAYOUT_ARRAYS 21
 void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS]);
 
 // Shapes that are meshes must have theirs, one of scene->meshes. Fails with ERROR_MEMORY, and with the place

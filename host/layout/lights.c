@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "layout/light_table.h"
 #include "layout/records.h"
 
 // Records of a scene. Many more than anybody waits for.
@@ -27,24 +28,29 @@ static bool is_area(const Light *light)
     return light->kind == LIGHT_SPHERE || light->kind == LIGHT_RECTANGLE;
 }
 
-static u32 light_samples(const Light *light)
+// Records of a light. Paths look for one point of a light at a time, and find area lights by their number.
+static u32 light_samples(const Light *light, bool path)
 {
-    return is_area(light) ? light->samples : 1;
+    if (is_area(light))
+        return path ? 1 : bright(light) ? light->samples : 0;
+    return bright(light);
 }
 
-static u32 occlusion_samples(const Scene *scene, LightUse use)
+static u32 occlusion_samples(const Scene *scene, const Layout *layout, LightUse use)
 {
-    return use.ambient ? scene->render.ambient_occlusion_samples : 0;
+    return use.ambient && !layout->path.on ? scene->render.ambient_occlusion_samples : 0;
 }
 
 static u32 environment_samples(const Scene *scene, const Layout *layout)
 {
-    return layout->environment_cdf ? scene->render.environment_samples : 0;
+    return layout->environment_cdf ? layout->path.on ? 1 : scene->render.environment_samples : 0;
 }
 
 // Puts `samples` copies of the record, which has all but what tells them apart.
 static void put(Layout *layout, u32 *count, LightRecord record, u32 samples, u32 *sequence)
 {
+    if (samples == 0)
+        return;
     record.intensity.x = (f32)((f64)record.intensity.x / samples);
     record.intensity.y = (f32)((f64)record.intensity.y / samples);
     record.intensity.z = (f32)((f64)record.intensity.z / samples);
@@ -56,11 +62,26 @@ static void put(Layout *layout, u32 *count, LightRecord record, u32 samples, u32
     }
 }
 
+// Puts the records of lights that are area lights, or not.
+static void put_lights(Layout *layout, const Scene *scene, bool area, bool punctual, u32 *count, u32 *sequence)
+{
+    u32 surface = scene->material_count; // material of the next area light's surface
+    for (u32 i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        LightRecord record = light_record(light, scene->camera.position);
+        record.surface = is_area(light) ? (i32)surface++ : -1;
+        record.position.w = scene->render.shadows ? 1 : 0;
+        if (is_area(light) ? area : punctual)
+            put(layout, count, record, light_samples(light, layout->path.on), sequence);
+    }
+}
+
 bool lights_add(Layout *layout, const Scene *scene, LightUse use, Error *error)
 {
-    u64 total = (u64)occlusion_samples(scene, use) + environment_samples(scene, layout);
+    const u32 occlusion = occlusion_samples(scene, layout, use), sky = environment_samples(scene, layout);
+    u64 total = (u64)occlusion + sky;
     for (u32 i = 0; i < scene->light_count; i++)
-        total += bright(&scene->lights[i]) ? light_samples(&scene->lights[i]) : 0;
+        total += light_samples(&scene->lights[i], layout->path.on);
     if (total > RECORDS_MAX)
         return error_set(error, ERROR_SCENE, "the lights have %llu samples in all, more than %d",
                          (unsigned long long)total, RECORDS_MAX);
@@ -69,28 +90,20 @@ bool lights_add(Layout *layout, const Scene *scene, LightUse use, Error *error)
     if (!layout->lights && total > 0)
         return error_set(error, ERROR_MEMORY, "no memory for %llu lights", (unsigned long long)total);
     u32 count = 0, sequence = 0;
-    u32 surface = scene->material_count; // material of the next area light's surface
-    const f32 traced = scene->render.shadows ? 1 : 0;
-    for (u32 i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        LightRecord record = light_record(light, scene->camera.position);
-        record.surface = is_area(light) ? (i32)surface++ : -1;
-        record.position.w = traced;
-        if (bright(light))
-            put(layout, &count, record, light_samples(light), &sequence);
-    }
-    if (environment_samples(scene, layout) > 0) {
-        const LightRecord record = { .kind = LIGHT_KIND_ENVIRONMENT, .position = { 0, 0, 0, traced },
+    put_lights(layout, scene, true, !layout->path.on, &count, &sequence);
+    if (layout->path.on)
+        put_lights(layout, scene, false, true, &count, &sequence);
+    const LightRecord everywhere = { .position = { 0, 0, 0, scene->render.shadows ? 1 : 0 },
                                      .intensity = { 1, 1, 1, 0 }, .surface = -1 };
-        put(layout, &count, record, environment_samples(scene, layout), &sequence);
-    }
-    if (occlusion_samples(scene, use) > 0) {
-        const LightRecord record = { .kind = LIGHT_KIND_OCCLUSION, .position = { 0, 0, 0, 1 },
-                                     .intensity = { 1, 1, 1, 0 }, .surface = -1,
-                                     .size = (f32)scene->render.ambient_occlusion_distance };
-        put(layout, &count, record, occlusion_samples(scene, use), &sequence);
-    }
-    return true;
+    LightRecord record = everywhere;
+    record.kind = LIGHT_KIND_ENVIRONMENT;
+    put(layout, &count, record, sky, &sequence);
+    record = everywhere;
+    record.kind = LIGHT_KIND_OCCLUSION;
+    record.position.w = 1;
+    record.size = (f32)scene->render.ambient_occlusion_distance;
+    put(layout, &count, record, occlusion, &sequence);
+    return !layout->path.on || light_table_plan(layout, error);
 }
 
 bool lights_direct(const Layout *layout)
@@ -151,7 +164,7 @@ static i32 primitive_of_material(const Layout *layout, u32 material)
     return -1;
 }
 
-void lights_finish(Layout *layout)
+bool lights_finish(Layout *layout, Error *error)
 {
     for (u32 i = 0; i < layout->light_count; i++) {
         LightRecord *light = &layout->lights[i];
@@ -166,6 +179,7 @@ void lights_finish(Layout *layout)
         if (light->surface >= 0)
             light->surface = primitive_of_material(layout, (u32)light->surface);
     }
+    return !layout->light_table || light_table_fill(layout, error);
 }
 
 MaterialRecord light_material(const Light *light)

@@ -22,8 +22,8 @@ FeatureSet lights_features(const Layout *layout, bool shadows);
 bool lights_direct(const Layout *layout);
 bool lights_shine(const Layout *layout);
 
-// Once primitives and planes have their places: which of them are never before a light.
-void lights_finish(Layout *layout);
+// Once primitives and planes have their places: which of them are never before a light. Fails with ERROR_MEMORY.
+bool lights_finish(Layout *layout, Error *error);
 
 // The material of an area light's surface: black, shining on its outer side.
 MaterialRecord light_material(const Light *light);

@@ -49,12 +49,13 @@ u64 plan_state_bytes(const Plan *plan, u32 groups)
 {
     const u64 slot = (u64)plan->real_fields * plan->real_bytes + (u64)plan->int_fields * 4;
     return groups * slot * TILE_SLOTS +
-           (u64)groups * plan->shape.group * RAYS_KINDS * 4;
+           (u64)groups * plan->shape.group * plan->ray_kinds * 4;
 }
 
 u64 plan_film_bytes(const Plan *plan, u32 rows)
 {
-    return (u64)plan->width * rows * (plan->samples ? 12 + 12 + 4 : 12);
+    const u64 pixel = (plan->samples ? 12 + 12 + 4 : 12) + (plan->clamp ? 16u : 0u);
+    return (u64)plan->width * rows * pixel;
 }
 
 u32 plan_first_samples(const Plan *plan)
@@ -84,11 +85,18 @@ static void count_fields(Plan *plan, const Layout *layout)
     const u32 lights = layout->light_count;
     plan->lights_per_pass = lights < LIGHTS_PER_PASS_MAX ? lights : LIGHTS_PER_PASS_MAX;
     plan->samples = samples;
+    plan->clamp = features_have(set, FEATURE_CLAMP);
     plan->slots_log2 = layout->params.samples >= 16 ? 4 : layout->params.samples >= 4 ? 2 : 0;
+    plan->ray_kinds = RAYS_KINDS;
     plan->pending_reals = STATE_REALS(shadows, plan->lights_per_pass);
     plan->real_fields = plan->pending_reals + pending * PENDING_REALS;
     plan->int_fields =
         STATE_INTS(shadows, branching, instances, random) + pending * PENDING_INTS(instances, random);
+    if (!features_have(set, FEATURE_PATH))
+        return;
+    plan->ray_kinds = PATH_RAYS_KINDS;
+    plan->real_fields = PATH_REALS(shadows);
+    plan->int_fields = PATH_INTS(shadows, instances);
 }
 
 // At most `groups`, so many that the buffer of their states is not larger than the device allows.

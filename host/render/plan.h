@@ -24,8 +24,10 @@ typedef struct Plan {
     u32 groups;          // tiles in flight
     u32 lights_per_pass; // at most LIGHTS_PER_PASS_MAX
     u32 real_fields, int_fields, pending_reals; // of a slot
+    u32 ray_kinds;       // numbers that each work-item counts
     u32 slots_log2;      // of a pixel, see RenderParams
     bool samples;        // more than one
+    bool clamp;          // of the samples
 } Plan;
 
 // CPUs: vectors as wide as the device's, one work-item a tile. GPUs, and doubles anywhere: a ray after the

@@ -19,9 +19,11 @@ struct Render {
     Program *program;
     Kernel *kernel;
     Buffer *scene[LAYOUT_ARRAYS]; // those that the program does not need are NULL
-    Buffer *params_buffer, *state_reals, *state_ints, *film, *film_low, *film_m2, *ray_counts;
+    Buffer *params_buffer, *state_reals, *state_ints, *film, *film_low, *film_m2, *film_clamped,
+        *ray_counts;
     f32 *rows;
     f32 *m2; // NULL where there is one sample
+    f32 *clamped; // NULL without a limit
     u32 *counts;
     u32 band_top;         // rows of the crop that are complete
     u32 samples_done;     // of the band in hand
@@ -72,6 +74,15 @@ static bool add_scene(Render *render, Error *error)
             buffer_upload(render->params_buffer, 0, &render->params, sizeof render->params, error));
 }
 
+static bool add_path(Render *render, Error *error)
+{
+    const PathLayout *path = &render->layout.path;
+    return !features_have(render->layout.features, FEATURE_PATH) ||
+           (kernel_set_u32(render->kernel, "path_techniques", path->techniques, error) &&
+            kernel_set_u32(render->kernel, "path_light_choices", path->light_choices, error) &&
+            kernel_set_u32(render->kernel, "path_area_materials", path->area_materials, error));
+}
+
 static bool add_work_buffers(Render *render, Error *error)
 {
     const Plan *plan = &render->plan;
@@ -82,11 +93,13 @@ static bool add_work_buffers(Render *render, Error *error)
     render->stats.groups = plan->groups;
     const u64 film = (u64)plan->band_rows * plan->width * 3 * sizeof(f32);
     const u64 m2 = plan->samples ? (u64)plan->band_rows * plan->width * sizeof(f32) : 0;
+    const u64 clamped = plan->clamp ? (u64)plan->band_rows * plan->width * 4 * sizeof(f32) : 0;
     const u64 field = TILE_SLOTS * 4;
     render->rows = malloc(film);
     render->m2 = m2 ? malloc(m2) : NULL;
-    render->counts = malloc(items * RAYS_KINDS * sizeof *render->counts);
-    if (!render->rows || !render->counts || (m2 && !render->m2))
+    render->clamped = clamped ? malloc(clamped) : NULL;
+    render->counts = malloc(items * plan->ray_kinds * sizeof *render->counts);
+    if (!render->rows || !render->counts || (m2 && !render->m2) || (clamped && !render->clamped))
         return error_set(error, ERROR_MEMORY, "no memory for %u rows", plan->band_rows);
     Kernel *kernel = render->kernel;
     const u64 reals = (u64)plan->groups * plan->real_fields * TILE_SLOTS * plan->real_bytes;
@@ -96,8 +109,11 @@ static bool add_work_buffers(Render *render, Error *error)
            add_buffer(render, &render->film, "film", film, error) &&
            add_buffer(render, &render->film_low, "film_low", film, error) &&
            add_buffer(render, &render->film_m2, "film_m2", m2, error) &&
+           add_buffer(render, &render->film_clamped, "film_clamped", clamped, error) &&
+           (!plan->clamp || kernel_set_f32(kernel, "clamp_limit", render->job.clamp, error)) &&
            add_buffer(render, &render->ray_counts, "ray_counts",
-                      items * RAYS_KINDS * sizeof *render->counts, error) &&
+                      items * plan->ray_kinds * sizeof *render->counts, error) &&
+           add_path(render, error) &&
            kernel_set_u32(kernel, "state_real_fields", plan->real_fields, error) &&
            kernel_set_u32(kernel, "state_int_fields", plan->int_fields, error) &&
            kernel_set_u32(kernel, "pending_reals", plan->pending_reals, error) &&
@@ -137,6 +153,7 @@ static bool build(Render *render, Error *error)
         return error_set(error, ERROR_DEVICE, "the options of the program are too long");
     if (job->aov != AOV_NONE)
         memcpy(options + length, only_aov, sizeof only_aov);
+    render->stats.features = render->layout.features;
     render->stats.program_hash = program_hash(options);
     const f64 start = clock_seconds();
     render->program =
@@ -153,18 +170,17 @@ static bool launch(Render *render, u32 rows, u32 sample_end, Error *error)
     const Plan *plan = &render->plan;
     const u32 tiles = plan_tiles(plan, rows);
     const u32 groups = tiles < 1 ? 1 : tiles < plan->groups ? tiles : plan->groups;
-    const u64 items = (u64)groups * plan->shape.group;
+    const u64 items = (u64)groups * plan->shape.group, counts = items * plan->ray_kinds;
     Kernel *kernel = render->kernel;
     if (!kernel_set_u32(kernel, "band_top", render->band_top, error) ||
         !kernel_set_u32(kernel, "band_rows", rows, error) ||
         !kernel_set_u32(kernel, "sample_begin", render->samples_done, error) ||
         !kernel_set_u32(kernel, "sample_end", sample_end, error) ||
         !kernel_launch(kernel, items, plan->shape.group, error) ||
-        !buffer_download(render->ray_counts, 0, render->counts, items * RAYS_KINDS * sizeof *render->counts,
-                         error))
+        !buffer_download(render->ray_counts, 0, render->counts, counts * sizeof *render->counts, error))
         return false;
-    for (u64 i = 0; i < items * RAYS_KINDS; i++)
-        render->stats.rays[i % RAYS_KINDS] += render->counts[i];
+    for (u64 i = 0; i < counts; i++)
+        render->stats.rays[i % plan->ray_kinds] += render->counts[i];
     return true;
 }
 
@@ -177,6 +193,8 @@ Render *render_create(const RenderJob *job, Error *error)
     }
     render->job = *job;
     render->layout = *job->layout;
+    if (job->clamp > 0)
+        render->layout.features |= feature_bit(FEATURE_CLAMP);
     if (job->aov != AOV_NONE)
         aov_reduce(&render->layout, job->aov);
     bool ok = math_mode_check(job->math, device_info(job->device), error) &&
@@ -211,11 +229,13 @@ void render_destroy(Render *render)
     buffer_destroy(render->film);
     buffer_destroy(render->film_low);
     buffer_destroy(render->film_m2);
+    buffer_destroy(render->film_clamped);
     buffer_destroy(render->ray_counts);
     kernel_destroy(render->kernel);
     program_destroy(render->program);
     free(render->rows);
     free(render->m2);
+    free(render->clamped);
     free(render->counts);
     free(render);
 }
@@ -241,7 +261,7 @@ bool render_step(Render *render, RenderRows *rows, Error *error)
     const u32 band = band_rows_now(render), samples = render->params.samples;
     const u32 left = samples - render->samples_done;
     const u32 now = left < render->samples_a_launch ? left : render->samples_a_launch;
-    *rows = (RenderRows){ NULL, NULL, 0 };
+    *rows = (RenderRows){ NULL, NULL, NULL, 0 };
     if (render_finished(render))
         return true;
     const f64 start = clock_seconds();
@@ -260,7 +280,10 @@ bool render_step(Render *render, RenderRows *rows, Error *error)
     if (render->film_m2 && !buffer_download(render->film_m2, 0, render->m2,
                                             (u64)band * render->plan.width * sizeof(f32), error))
         return false;
-    *rows = (RenderRows){ render->rows, render->m2, band };
+    if (render->film_clamped && !buffer_download(render->film_clamped, 0, render->clamped,
+                                                 (u64)band * render->plan.width * 4 * sizeof(f32), error))
+        return false;
+    *rows = (RenderRows){ render->rows, render->m2, render->clamped, band };
     render->band_top += band;
     render->samples_done = 0;
     return true;

@@ -16,13 +16,15 @@ typedef struct RenderJob {
     u64 memory_limit;             // bytes on the device, 0: what the device has
     MathMode math;
     u32 aov;                      // AOV_X: what the rows hold
+    f32 clamp;                    // no channel of a sample is brighter; 0: no limit. Not for properties
 } RenderJob;
 
 typedef struct RenderStats {
+    FeatureSet features; // of the program
     u64 program_hash;    // of the program's text and options (base/hash.h)
     f64 compile_seconds; // building the program, and a first launch of nothing, which generates the code
     f64 trace_seconds;   // all launches
-    u64 rays[4];         // camera, shadow, mirrored, transmitted
+    u64 rays[5];         // camera, shadow, mirrored, transmitted; lanes of waves of paths
     u64 scene_bytes;     // on the device
     u64 state_bytes;
     u64 film_bytes;
@@ -38,6 +40,9 @@ typedef struct RenderRows {
     // One number a pixel: the sum over samples and channels of the squared distance of each sample from their
     // mean. NULL where there is one sample.
     const f32 *m2;
+    // Four numbers a pixel: the sums over samples of what each channel lost to RenderJob.clamp, weighted as
+    // the samples are, and how many samples lost anything. NULL where there is no limit.
+    const f32 *clamped;
     u32 count;
 } RenderRows;
 

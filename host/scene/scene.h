@@ -41,6 +41,9 @@ typedef struct Camera {
 typedef enum Integrator { INTEGRATOR_WHITTED, INTEGRATOR_PATH } Integrator;
 typedef enum EnvironmentLighting { ENVIRONMENT_SAMPLED, ENVIRONMENT_PREFILTERED } EnvironmentLighting;
 
+// How the path integrator looks for the light of area lights and of the environment.
+typedef enum LightSampling { LIGHT_SAMPLING_BOTH, LIGHT_SAMPLING_LIGHTS, LIGHT_SAMPLING_SURFACES } LightSampling;
+
 typedef struct RenderSettings {
     u32 max_depth; // 0..64
     f64 min_weight;
@@ -49,6 +52,7 @@ typedef struct RenderSettings {
     f64 ambient_occlusion_distance;
     u32 environment_samples;
     EnvironmentLighting environment_lighting;
+    LightSampling light_sampling; // not of the language; BOTH unless somebody says otherwise
     bool shadows;
     SourcePos integrator_at, ambient_occlusion_at;
 } RenderSettings;

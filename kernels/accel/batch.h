@@ -25,11 +25,26 @@ static inline PrimitiveLanes primitive_splat(global const Primitive *p)
     return lanes;
 }
 
+#if HAS_AREA_LIGHTS && HAS_PATH
+// The rays for which the primitive is not there.
+static inline uint rays_without(const BatchHits *hits, int primitive)
+{
+    uint without = 0;
+    for (int first = 0; first < BATCH; first += LANES)
+        without |= vm_bits(VI_LOAD(&hits->left_out[first]) == (vi)(primitive)) << first;
+    return without;
+}
+#endif
+
 // Tests one primitive against the rays of mask. Rays that it stops are reported in the result.
 OUTLINE uint test_primitive(const Hierarchy *scene, const BatchRays *rays, BatchHits *hits, uint mask,
                                   int primitive, int instance)
 {
-#if HAS_AREA_LIGHTS
+#if HAS_AREA_LIGHTS && HAS_PATH
+    mask &= ~rays_without(hits, primitive);
+    if (!mask)
+        return 0;
+#elif HAS_AREA_LIGHTS
     if (primitive == hits->left_out)
         return 0;
 #endif
@@ -62,6 +77,17 @@ OUTLINE uint test_primitive(const Hierarchy *scene, const BatchRays *rays, Batch
 #include "accel/traverse.h"
 #endif
 
+#if HAS_PLANE && HAS_PATH
+static inline uint rays_without_plane(const BatchHits *hits, uint plane)
+{
+    uint without = 0;
+    const vi bit = (vi)((int)(1u << plane));
+    for (int first = 0; first < BATCH; first += LANES)
+        without |= vm_bits((VI_LOAD(&hits->planes_out[first]) & bit) != (vi)(0)) << first;
+    return without;
+}
+#endif
+
 // Closest hits of the rays in mask (any_hit false), or any hit (true: then only the fact counts and tfar,
 // primitive and instance of a ray that hit are those of some hit). opaque_only leaves out primitives that
 // may let light through; bit k of planes_out leaves out plane k. tfar, tmin and self are set by the caller,
@@ -74,7 +100,12 @@ OUTLINE void traverse(const Hierarchy *scene, const BatchRays *rays, BatchHits *
         if ((i < 32 && (planes_out >> i & 1u)) ||
             (opaque_only && !(scene->primitives[i].kind & PRIMITIVE_OPAQUE)))
             continue;
+#if HAS_PATH
+        const uint here = i < 32 ? mask & ~rays_without_plane(hits, i) : mask;
+        const uint found = test_primitive(scene, rays, hits, here, (int)i, NO_HIT);
+#else
         const uint found = test_primitive(scene, rays, hits, mask, (int)i, NO_HIT);
+#endif
         if (any_hit)
             mask &= ~found;
     }

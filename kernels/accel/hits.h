@@ -46,7 +46,10 @@ typedef struct {
     int last_primitive[BATCH]; // surface that the ray has crossed at tmin, or NO_HIT
     int last_instance[BATCH];
 #endif
-#if HAS_AREA_LIGHTS
+#if HAS_PATH
+    int left_out[BATCH]; // a primitive that is not there for the ray, or NO_HIT
+    int planes_out[BATCH]; // bit k: plane k is not there
+#elif HAS_AREA_LIGHTS
     int left_out; // a primitive that is not there for these rays, or NO_HIT
 #endif
 #if COUNT_VISITS

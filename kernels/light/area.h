@@ -29,6 +29,9 @@ OUTLINE LightSample sphere_light_sample(global const LightRecord *light, v3 poin
     const vf half_chord = sqrt(vf_max((q - v) * (2.0f - (q + v)), (vf)(0.0f)));
     sample.distance = distance * tangent / (cosine + half_chord);
     const vf gain = outside ? 2.0f * q : (vf)(0.0f); // solid angle over pi
+#if HAS_PATH
+    sample.density = outside ? INVERSE_PI / gain : (vf)(0.0f);
+#endif
     sample.intensity = v3_make(gain * radiance.x, gain * radiance.y, gain * radiance.z);
     sample.area = true;
     return sample;
@@ -53,6 +56,9 @@ OUTLINE LightSample rectangle_light_sample(global const LightRecord *light, v3 p
     sample.distance = distance;
     const vf seen = (light->size * inverse) * (vf_min(height * inverse, (vf)(1.0f)) * inverse) * INVERSE_PI;
     const vf gain = before ? vf_min(seen, (vf)(GAIN_MAX)) : (vf)(0.0f);
+#if HAS_PATH
+    sample.density = before ? INVERSE_PI / gain : (vf)(0.0f);
+#endif
     sample.intensity = v3_make(gain * radiance.x, gain * radiance.y, gain * radiance.z);
     sample.area = true;
     return sample;

@@ -7,7 +7,7 @@
 #include "light/area.h"
 #endif
 
-#if HAS_AREA_LIGHTS
+#if HAS_AREA_LIGHTS && !HAS_PATH
 static inline LightSample light_sample(global const LightRecord *light, v3 point, SamplePoint u)
 {
 #if HAS_SPHERE_LIGHT

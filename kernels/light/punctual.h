@@ -15,6 +15,9 @@ typedef struct {
 #if HAS_AREA_LIGHTS
     bool area;
 #endif
+#if HAS_PATH
+    vf density; // of dir over solid angle; 0: no other direction leads to the light
+#endif
 } LightSample;
 
 // The light as point sees it. A point at the light's very position receives nothing.
@@ -61,6 +64,9 @@ OUTLINE LightSample punctual_sample(global const LightRecord *light, v3 point)
     sample.intensity = v3_make(gain * intensity.x, gain * intensity.y, gain * intensity.z);
 #if HAS_AREA_LIGHTS
     sample.area = false;
+#endif
+#if HAS_PATH
+    sample.density = (vf)(0.0f);
 #endif
     return sample;
 }

@@ -5,9 +5,12 @@
 #include "base/vec.h"
 #if HAS_SPECULAR
 #include "base/exp_log.h"
+#if HAS_PATH
+#include "base/frame.h"
+#endif
 #endif
 
-#if HAS_PHONG || HAS_REFLECT
+#if HAS_PHONG || HAS_REFLECT || (HAS_PATH && HAS_SPECULAR)
 // Reflected direction, D - 2 (D.N) N.
 static inline v3 reflect_about(v3 dir, v3 normal)
 {
@@ -54,6 +57,19 @@ static inline vf lobe_blinn(v3 normal, v3 to_light, v3 to_eye, vf exponent)
     return lobe_power(versine_between(v3_scale(sum, inverse), normal), exponent);
 }
 #endif
+#endif
+
+#if HAS_SPECULAR && HAS_PATH
+// A direction about the unit axis with density (exponent + 1) / (2 pi) cos^exponent over solid angle. 1 - cos is
+// 1 - u^(1 / (exponent + 1)), by its series where that is small.
+static inline v3 lobe_direction(v3 axis, vf exponent, vf u, vf turn)
+{
+    const vf x = -vf_log(vf_max(u, (vf)(0x1p-25f))) / (exponent + 1.0f);
+    const vf series = x * fma(x, fma(x, (vf)(1.0f / 6.0f), (vf)(-0.5f)), (vf)(1.0f));
+    const vf versine = x < (vf)(0.01f) ? series : 1.0f - vf_exp(-x);
+    const Frame frame = frame_about(axis);
+    return frame_direction(&frame, sqrt(versine * (2.0f - versine)), 1.0f - versine, turn);
+}
 #endif
 
 #if HAS_TRANSMIT || HAS_FRESNEL

@@ -87,9 +87,10 @@ OUTLINE v3 pbr_brdf(const PbrLanes *m, v3 n, v3 to_eye, v3 to_light)
     return v3_fma(fresnel, lobe, v3_scale(scattered, body));
 }
 
-#if HAS_ENVIRONMENT_LIGHT
-static inline vf brightness(v3 color) { return fma(color.z, (vf)(0.25f), fma(color.y, (vf)(0.5f), color.x * 0.25f)); }
+#if HAS_ENVIRONMENT_LIGHT || HAS_PATH
+#include "material/brightness.h"
 
+#if !HAS_PATH
 // Probability with which the lobe rather than the cosine draws a direction: about its share of what is
 // reflected. Never 0 for a rough surface that the eye sees from above, and never 1 where the body scatters.
 static inline vf pbr_lobe_share(const PbrLanes *m, v3 n, v3 to_eye)
@@ -104,6 +105,8 @@ static inline vf pbr_lobe_share(const PbrLanes *m, v3 n, v3 to_eye)
     return rough ? either : (vf)(0.0f);
 }
 
+#endif
+
 // A visible normal of the distribution for an eye at `eye` above the surface z = 0, in that frame: the cap of the
 // sphere that the eye sees, after squashing (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical
 // Caps", 2023).
@@ -117,6 +120,23 @@ static inline v3 visible_normal(v3 eye, vf a, vf u, vf v)
     return v3_normalize(v3_make(cap.x * a, cap.y * a, vf_max(cap.z, (vf)(0.0f))));
 }
 
+#if HAS_PATH
+// The mirror of the eye in a visible normal; it may lie below the surface, where nothing is reflected.
+static inline v3 pbr_lobe_direction(const PbrLanes *m, v3 n, v3 to_eye, vf u, vf v)
+{
+    const Frame frame = frame_about(n);
+    const v3 eye = v3_make(v3_dot(frame.x, to_eye), v3_dot(frame.y, to_eye), v3_dot(n, to_eye));
+    const v3 local_h = visible_normal(eye, m->roughness * m->roughness, u, v);
+    const v3 h = v3_fma(n, local_h.z, v3_fma(frame.y, local_h.y, v3_scale(frame.x, local_h.x)));
+    return v3_normalize(v3_fma(h, 2.0f * v3_dot(eye, local_h), v3_neg(to_eye)));
+}
+
+// Its density over solid angle, for N.L > 0.
+static inline vf pbr_lobe_density(const PbrGeometry *g)
+{
+    return g->d * 0.5f / (g->nv + sqrt(fma(1.0f - g->a2, g->nv * g->nv, g->a2)));
+}
+#else
 // A direction for the point (u, v); `choice`, uniform in [0, 1), takes the lobe or the body. It may lie below
 // the surface, where nothing is reflected.
 OUTLINE v3 pbr_sample(const PbrLanes *m, v3 n, v3 to_eye, vf u, vf v, vf choice)
@@ -138,6 +158,7 @@ OUTLINE vf pbr_pdf(const PbrLanes *m, v3 n, v3 to_eye, v3 to_light)
     const vf lobe = share > (vf)(0.0f) ? share * visible : (vf)(0.0f);
     return fma(1.0f - share, g.nl * INVERSE_PI, lobe);
 }
+#endif
 #endif
 
 #endif

@@ -59,6 +59,9 @@ OUTLINE void weigh_samples(const State *s, constant RenderParams *params, global
         const SamplePoint point = sample_offset(&key, quantiles);
         const vf weight = filter_sign(point.x) * filter_sign(point.y) * params->filter_ratio;
         state_store3(s, RADIANCE, &slots, v3_scale(state_load3(s, RADIANCE, &slots), weight), slots.valid);
+#if HAS_CLAMP
+        state_store3(s, CLAMPED, &slots, v3_scale(state_load3(s, CLAMPED, &slots), weight), slots.valid);
+#endif
     }
     GROUP_BARRIER();
 }

@@ -120,4 +120,56 @@ OUTLINE void film_add(const State *s, constant RenderParams *params, global f32 
     }
 }
 
+#if HAS_CLAMP
+// Scales the samples in the tile's slots that have a channel above limit, so that their largest one is limit,
+// and keeps what they lose as CLAMPED. What is not finite stays, so that it can be counted. field: the first
+// of their radiance.
+OUTLINE void clamp_samples(const State *s, uint field, f32 limit)
+{
+    for (uint i = GROUP_ITEM * LANES; i < TILE_SLOTS; i += GROUP * LANES) {
+        const Slots slots = slots_all(i);
+        const v3 radiance = state_load3(s, field, &slots);
+        const vf largest = vf_max(vf_max(radiance.x, radiance.y), radiance.z), most = (vf)(limit);
+        const vm finite = (fabs(radiance.x) < (vf)(INFINITY)) & (fabs(radiance.y) < (vf)(INFINITY)) &
+                          (fabs(radiance.z) < (vf)(INFINITY));
+        const vm over = finite & (largest > most);
+        // Quotients first: limit over largest may be smaller than devices agree on. They are at most 1, and a
+        // little more in fast arithmetic.
+        const vf whole = over ? largest : (vf)(1.0f);
+        const v3 kept = v3_make(vf_min(radiance.x / whole * most, most), vf_min(radiance.y / whole * most, most),
+                                vf_min(radiance.z / whole * most, most));
+        state_store3(s, CLAMPED, &slots, v3_splat(0.0f), slots.valid);
+        state_store3(s, CLAMPED, &slots, v3_sub(radiance, kept), over);
+        state_store3(s, field, &slots, kept, over);
+    }
+    GROUP_BARRIER();
+}
+
+// Takes over what samples begin .. end - 1 of the tile's pixels lost, weighted as the samples are, into
+// film_clamped, 4 numbers a pixel: the sums of the channels and how many samples lost anything. First within
+// a round, as in film_add.
+OUTLINE void film_add_clamped(const State *s, constant RenderParams *params, global f32 *film_clamped,
+                              const Tile *tile, uint begin, uint end)
+{
+    const uint log2 = params->slots_log2;
+    for (uint pixel = GROUP_ITEM; pixel < TILE_SLOTS >> log2; pixel += GROUP) {
+        const uint x = pixel_x(pixel), y = pixel_y(pixel);
+        if (x >= tile->width || y >= tile->height)
+            continue;
+        global const real *lost = s->reals + CLAMPED * TILE_SLOTS + (pixel << log2);
+        global f32 *to = film_clamped + 4 * ((tile->top + y) * params->crop_width + tile->left + x);
+        real sums[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+        for (uint k = 0; k < end - begin; k++) {
+            const real r = lost[k], g = lost[TILE_SLOTS + k], b = lost[2 * TILE_SLOTS + k];
+            sums[0] += r;
+            sums[1] += g;
+            sums[2] += b;
+            sums[3] += r != 0.0f || g != 0.0f || b != 0.0f ? 1.0f : 0.0f;
+        }
+        for (uint c = 0; c < 4; c++)
+            to[c] = begin ? to[c] + (f32)sums[c] : (f32)sums[c];
+    }
+}
+#endif
+
 #endif

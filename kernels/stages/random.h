@@ -31,10 +31,26 @@ static inline HitRandom hit_random(const State *s, const Slots *slots)
 {
     HitRandom random;
     random.path = VU_FROM_VI(state_load_int(s, PATH, slots));
+#if HAS_PATH
+    random.sample = VU_FROM_VI(state_load_int(s, SAMPLE, slots));
+#else
     random.sample = VU_FROM_VI((slots->index & s->sample_mask) + s->sample_begin);
+#endif
     return random;
 }
 
+#if HAS_PATH
+// The pairs of numbers that a path draws at each hit.
+#define PAIR_LIGHT 0u   // the point of a light
+#define PAIR_SCATTER 1u // the direction in which the path goes on
+#define PAIR_CHOICE 2u  // which light; whether the path goes on
+#define PAIR_PICK 3u    // lights of the table
+
+static inline SampleBits hit_random_pair(const HitRandom *random, uint pair)
+{
+    return sample_2d_bits(random->path, random->sample, pair);
+}
+#else
 // The bits, and the point, of the light's record. All samples of a pixel, and of the light at one hit,
 // are one sequence: they are spread over the light together.
 static inline SampleBits hit_random_bits(const HitRandom *random, global const LightRecord *light)
@@ -46,6 +62,7 @@ static inline SamplePoint hit_random_point(const HitRandom *random, global const
 {
     return sample_point(hit_random_bits(random, light));
 }
+#endif
 #endif
 
 #endif

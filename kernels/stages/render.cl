@@ -8,6 +8,11 @@
 #include "stages/trace.h"
 
 #include "stages/film.h"
+#if HAS_PATH
+#define RAY_COUNTS PATH_RAYS_KINDS
+#else
+#define RAY_COUNTS RAYS_KINDS
+#endif
 // A program of its own for properties of first hits; nothing is changed in others.
 #ifndef AOV
 #define AOV 0
@@ -42,6 +47,9 @@ OUTLINE uint start_samples(const State *s, constant RenderParams *params, global
     return count;
 }
 
+#if HAS_PATH
+#include "stages/path.h"
+#else
 // Puts the next ray in flight in each slot of the queue, the one that follows or a parked one; returns the
 // length of the queue of those that have one.
 OUTLINE uint advance(const State *s, uint count, local uint *scratch)
@@ -112,6 +120,8 @@ static inline void drain_queue(const State *s, const Hierarchy *scene, const Sha
     }
 }
 
+#endif
+
 // Renders samples sample_begin .. sample_end - 1 of the band of band_rows rows of the crop from row band_top
 // on. Group g does tiles g, g + groups, ... of the band, counted row by row. scratch: GROUP numbers; an
 // argument, because PoCL 3.1 lets groups that run side by side share a local array of the kernel itself.
@@ -162,8 +172,17 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_FILTER_TABLE
                          global const f32 *quantiles,
 #endif
+#if HAS_MANY_LIGHTS
+                         global const LightTableEntry *light_table,
+#endif
+#if HAS_PATH
+                         uint path_techniques, uint path_light_choices, uint path_area_materials,
+#endif
 #if HAS_SAMPLES
                          global f32 *film_low, global f32 *film_m2,
+#endif
+#if HAS_CLAMP
+                         global f32 *film_clamped, f32 clamp_limit,
 #endif
                          global real *state_reals, global int *state_ints, global f32 *film,
                          global uint *ray_counts, uint state_real_fields, uint state_int_fields,
@@ -174,7 +193,11 @@ kernel void render_tiles(constant RenderParams *params,
     const uint side = TILE_SIDE >> params->slots_log2 / 2;
     const uint columns = (params->crop_width + side - 1) / side;
     const uint tiles = columns * ((band_rows + side - 1) / side);
+    #if HAS_PATH
+    uint rays[RAY_COUNTS] = { 0, 0, 0, 0, 0 };
+#else
     uint rays[RAYS_KINDS] = { 0, 0, 0, 0 };
+#endif
     State s;
     Hierarchy scene;
     Shading shading;
@@ -237,6 +260,40 @@ kernel void render_tiles(constant RenderParams *params,
 #if !HAS_SAMPLES
     global f32 *film_low = 0, *film_m2 = 0;
 #endif
+#if HAS_PATH
+    PathWave wave;
+    wave.s = wave.pool = s;
+    wave.pool.reals += POOL_REALS * TILE_SLOTS;
+    wave.pool.ints += POOL_INTS * TILE_SLOTS;
+    wave.scene = &scene;
+    wave.shading = &shading;
+    wave.lights = lights;
+    wave.params = params;
+    wave.quantiles = quantiles;
+    wave.film = film;
+    wave.film_low = film_low;
+    wave.film_m2 = film_m2;
+#if HAS_CLAMP
+    wave.film_clamped = film_clamped;
+    wave.clamp_limit = clamp_limit;
+#endif
+    wave.settings.techniques = path_techniques;
+    wave.settings.light_choices = path_light_choices;
+    wave.settings.area_materials = path_area_materials;
+#if HAS_MANY_LIGHTS
+    wave.settings.table = light_table;
+    wave.settings.light_count = params->light_count;
+#endif
+    wave.scratch = scratch;
+    wave.rays = rays;
+    wave.tile = group;
+    wave.tiles = tiles;
+    wave.band_top = band_top;
+    wave.band_rows = band_rows;
+    wave.sample = wave.sample_begin = sample_begin;
+    wave.sample_end = sample_end;
+    path_trace(&wave);
+#else
     for (uint t = group; t < tiles; t += groups) {
         Tile tile;
         tile.left = t % columns * side;
@@ -253,13 +310,20 @@ kernel void render_tiles(constant RenderParams *params,
 #endif
             const uint count = start_samples(&s, params, quantiles, &tile, begin, end, scratch, rays);
             drain_queue(&s, &scene, &shading, lights, params, count, scratch, rays);
+#if HAS_CLAMP
+            clamp_samples(&s, RADIANCE, clamp_limit);
+#endif
 #if HAS_FILTER_LOBES
             weigh_samples(&s, params, quantiles, tile.image_left, tile.image_top, begin);
 #endif
             film_add(&s, params, film, film_low, film_m2, &tile, begin, end);
+#if HAS_CLAMP
+            film_add_clamped(&s, params, film_clamped, &tile, begin, end);
+#endif
             GROUP_BARRIER();
         }
     }
-    for (uint k = 0; k < RAYS_KINDS; k++)
-        ray_counts[get_global_id(0) * RAYS_KINDS + k] = rays[k];
+#endif
+    for (uint k = 0; k < RAY_COUNTS; k++)
+        ray_counts[get_global_id(0) * RAY_COUNTS + k] = rays[k];
 }

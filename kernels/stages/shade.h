@@ -21,11 +21,13 @@
 // light lies on does not stand before it.
 #define LIGHT_NEARER 0.999998f
 
+#if !HAS_PATH
 // Lights first..last of params; opening and closing tell the first and the last pass over a hit.
 typedef struct {
     uint first, last;
     bool opening, closing;
 } LightPass;
+#endif
 
 // Light from directions below this plane through the hit does not count.
 static inline v3 hit_horizon(const Hit *hit)
@@ -76,6 +78,7 @@ OUTLINE v3 hit_prefiltered(const Hit *hit, const Shading *shading)
 }
 #endif
 
+#if !HAS_PATH
 // Emission and, where no rays look for what occludes it, ambient light.
 OUTLINE v3 shade_unlit(const Hit *hit, const Shading *shading)
 {
@@ -95,6 +98,7 @@ OUTLINE v3 shade_unlit(const Hit *hit, const Shading *shading)
 #endif
     return sum;
 }
+#endif
 
 #if HAS_PBR
 OUTLINE PbrLanes hit_pbr(const Hit *hit, const Shading *shading)
@@ -109,7 +113,7 @@ OUTLINE PbrLanes hit_pbr(const Hit *hit, const Shading *shading)
 }
 #endif
 
-#if HAS_DIRECT_LIGHTS
+#if HAS_DIRECT_LIGHTS && !HAS_PATH
 // Radiance that the light sends to the eye by way of the hit, were nothing between them; 0 where it cannot.
 OUTLINE v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
 {
@@ -151,6 +155,7 @@ OUTLINE v3 shade_light(const Hit *hit, v3 diffuse, const LightSample *light)
 #endif
 
 #if HAS_LIGHTS
+#if !HAS_PATH
 // A ray from the hit towards a light, and what it brings to the eye where it meets nothing.
 typedef struct {
     v3 dir, gain;
@@ -240,6 +245,8 @@ OUTLINE LightRay light_ray(const Hit *hit, const Shading *shading, v3 diffuse, v
     return ray;
 }
 
+#endif
+
 #if HAS_SHADOWS
 static inline v3 shadow_origin(const Hit *hit)
 {
@@ -252,6 +259,7 @@ static inline v3 shadow_origin(const Hit *hit)
 }
 #endif
 
+#if !HAS_PATH
 // Light of the pass: queued as shadow rays, or added at once where nothing casts shadows. Returns FLAGS.
 OUTLINE vi shade_lights(const State *s, const Slots *slots, const Hit *hit, const Shading *shading,
                               global const LightRecord *lights, const LightPass *pass, v3 throughput,
@@ -288,9 +296,11 @@ OUTLINE vi shade_lights(const State *s, const Slots *slots, const Hit *hit, cons
     return flags;
 }
 #endif
+#endif
 
 #include "stages/spawn.h"
 
+#if !HAS_PATH
 // Shades the rays of the queue for the lights of one pass.
 OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *shading,
                               global const LightRecord *lights, constant RenderParams *params,
@@ -355,5 +365,6 @@ OUTLINE void shade_hits(const State *s, const Hierarchy *scene, const Shading *s
         state_store_int(s, FLAGS, &slots, flags, slots.valid);
     }
 }
+#endif
 
 #endif

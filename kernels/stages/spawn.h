@@ -2,7 +2,7 @@
 #ifndef CLRT_KERNELS_STAGES_SPAWN_H
 #define CLRT_KERNELS_STAGES_SPAWN_H
 
-#if HAS_REFLECT || HAS_TRANSMIT
+#if HAS_REFLECT || HAS_TRANSMIT || HAS_PATH
 
 // A ray that follows, where m is true.
 typedef struct {
@@ -14,6 +14,7 @@ typedef struct {
 #endif
 } NextRay;
 
+#if HAS_REFLECT || HAS_TRANSMIT
 // Weights and directions of the two rays (scene language, section 4).
 typedef struct {
     v3 reflect_dir, reflect_weight;
@@ -82,6 +83,9 @@ OUTLINE Scatter scatter_make(const Hit *hit)
     return s;
 }
 
+#endif
+
+#if !HAS_PATH
 // The ray in direction dir with weight, where it has enough left to be traced.
 static inline NextRay next_ray(const Hit *hit, v3 dir, v3 weight, v3 throughput, vm through, real min_weight,
                                vm m)
@@ -102,6 +106,8 @@ static inline NextRay next_ray(const Hit *hit, v3 dir, v3 weight, v3 throughput,
 #endif
     return next;
 }
+
+#endif
 
 static inline void store_ray(const State *s, const Slots *slots, const NextRay *ray, vi depth, vi instance,
                              vm m)
@@ -179,6 +185,7 @@ OUTLINE void unpark_ray(const State *s, const Slots *slots, vm m)
 }
 #endif
 
+#if !HAS_PATH
 // Puts the first of the rays that follow in flight and parks the second; returns FLAG_NEXT where there is
 // one.
 OUTLINE vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, constant RenderParams *params,
@@ -215,6 +222,8 @@ OUTLINE vi spawn_rays(const State *s, const Slots *slots, const Hit *hit, consta
     store_ray(s, slots, &first, depth, instance, slots->valid);
     return first.m ? (vi)(FLAG_NEXT) : (vi)(0);
 }
+
+#endif
 
 #endif
 #endif

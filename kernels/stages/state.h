@@ -13,6 +13,9 @@ enum {
     RAY_DIR = RAY_ORG + 3,      // 3: unit
     RAY_T = RAY_DIR + 3,        // of its hit, INFINITY for a miss
     THROUGHPUT,                 // 3: product of the weights along the path
+#if HAS_CLAMP
+    CLAMPED = THROUGHPUT,       // 3: once no ray of the sample is in flight, what it lost to the limit
+#endif
     RADIANCE = THROUGHPUT + 3,  // 3: of the sample so far
     RADIANCE_END = RADIANCE + 3,
 #if HAS_SHADOWS
@@ -48,6 +51,24 @@ enum {
     QUEUE_NEXT,  // slots of the shadow rays or the next queue
     INT_FIELDS
 };
+#if HAS_PATH
+// Further fields of a path, and where those of the waiting camera rays and of finished samples begin.
+enum {
+    DENSITY = RADIANCE_END + HAS_SHADOWS * 10, // of the ray's direction, as drawn; 0: it had no choice
+    POOL_REALS,
+    RING_REALS = POOL_REALS + RADIANCE_END // 3 for each round
+};
+enum {
+    ENDED = INT_FIELDS, // slots whose path has ended, compacted
+    JOB,                // number of the sample among those of the launch that the group has begun
+    SAMPLE,             // its number in the pixel
+    SHADOW_LEFT_OUT,    // as BatchHits.left_out, planes_out
+    SHADOW_PLANES,
+    POOL_INTS
+};
+typedef char path_reals_check[POOL_REALS == PATH_SLOT_REALS(HAS_SHADOWS) ? 1 : -1];
+typedef char path_ints_check[POOL_INTS == PATH_SLOT_INTS(HAS_SHADOWS, HAS_INSTANCES) ? 1 : -1];
+#endif
 // A parked ray is 3 org, 3 dir, 3 throughput; self, depth and, where there are any, instance and path.
 
 typedef char state_reals_check[RADIANCE_END == STATE_REALS(0, 0) ? 1 : -1];

@@ -20,7 +20,10 @@ static inline void batch_start(BatchRays *rays, BatchHits *hits, int first, v3 o
 #if HAS_INSTANCES
     VI_STORE(instance, &hits->self_instance[first]);
 #endif
-#if HAS_AREA_LIGHTS
+#if HAS_PATH
+    VI_STORE((vi)(NO_HIT), &hits->left_out[first]);
+    VI_STORE((vi)(0), &hits->planes_out[first]);
+#elif HAS_AREA_LIGHTS
     hits->left_out = NO_HIT;
 #endif
 }
@@ -71,7 +74,42 @@ OUTLINE void intersect_closest(const State *s, const Hierarchy *scene, uint coun
     }
 }
 
-#if HAS_SHADOWS
+#if HAS_SHADOWS && HAS_PATH
+// Traces the shadow ray of each slot of the queue that has one, and adds what arrives to its radiance.
+OUTLINE void intersect_shadow(const State *s, const Hierarchy *scene, uint count, uint *traced)
+{
+    global const int *queue = s->ints + QUEUE * TILE_SLOTS;
+    for (uint begin = GROUP_ITEM * BATCH; begin < count; begin += GROUP * BATCH) {
+        BatchRays rays;
+        BatchHits hits;
+        uint mask = 0;
+        for (int k = 0; k < BATCH; k += LANES) {
+            const Slots slots = slots_make(queue, begin + (uint)k, count);
+            vi instance = (vi)(NO_HIT);
+#if HAS_INSTANCES
+            instance = state_load_int(s, INSTANCE, &slots);
+#endif
+            mask |= vm_bits(slots.valid & ((state_load_int(s, FLAGS, &slots) & 1) != (vi)(0))) << k;
+            batch_start(&rays, &hits, k, state_load3(s, SHADOW_ORG, &slots),
+                        state_load_int(s, SHADOW_SELF, &slots), instance);
+            batch_aim(&rays, &hits, k, state_load3(s, SHADOW_LIGHTS + SHADOW_DIR, &slots),
+                      state_load(s, SHADOW_LIGHTS + SHADOW_T, &slots));
+            VI_STORE(state_load_int(s, SHADOW_LEFT_OUT, &slots), &hits.left_out[k]);
+            VI_STORE(state_load_int(s, SHADOW_PLANES, &slots), &hits.planes_out[k]);
+        }
+        if (!mask)
+            continue;
+        *traced += popcount(mask);
+        traverse(scene, &rays, &hits, mask, true, false, 0);
+        for (int k = 0; k < BATCH; k += LANES) {
+            const Slots slots = slots_make(queue, begin + (uint)k, count);
+            const vm open = (VI_LOAD(&hits.primitive[k]) == (vi)(NO_HIT)) & vm_from_bits(mask >> k) & slots.valid;
+            const v3 gain = state_load3(s, SHADOW_LIGHTS + SHADOW_GAIN, &slots);
+            state_store3(s, RADIANCE, &slots, v3_add(state_load3(s, RADIANCE, &slots), gain), open);
+        }
+    }
+}
+#elif HAS_SHADOWS
 #if HAS_TRANSMIT_TEXTURE
 // What the surface that ray k has met lets through where textures say how much: all lanes look at that one hit.
 OUTLINE void textured_transmit(const Hierarchy *scene, const Shading *shading, const BatchRays *rays,

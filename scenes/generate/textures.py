@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the textures of scenes/textures: surfaces and two environments, each by a formula.
+"""Writes the textures of scenes/textures: surfaces and three environments, each by a formula.
 
     textures.py FOLDER
 
@@ -261,6 +261,7 @@ def hammered_height(u, v):
 # Environments.
 
 SUN = (-0.62, 0.62, -0.30)
+NOON_SUN = (-0.62, 0.75, 0.42)
 
 
 def normalized(v):
@@ -300,6 +301,22 @@ def room(direction):
     return mix(color, (3.4, 2.5, 1.6), lamp)
 
 
+def noon(direction):
+    """A cloudless sky of rings about the zenith, over grey ground; the sun is five degrees wide and has a glow about it.
+
+    Rows are constant but for the glow, which leaves the run-length form little to store.
+    """
+    y = direction[1]
+    if y < 0:
+        color = mix((0.50, 0.53, 0.56), (0.22, 0.21, 0.19), step(0, 0.35, -y))
+    else:
+        color = mix((0.62, 0.70, 0.80), (0.12, 0.25, 0.56), 1 - (1 - y) ** 2.5)
+    cosine = sum(a * b for a, b in zip(direction, normalized(NOON_SUN)))
+    angle = math.degrees(math.acos(clamp(cosine, -1, 1)))
+    light = 0.9 * (1 - step(0, 13, angle)) ** 3 + 100 * (1 - step(2.3, 2.7, angle))
+    return tuple(c + light * w for c, w in zip(color, (1.0, 0.90, 0.76)))
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
@@ -315,6 +332,7 @@ def main():
     write_png(path("hammered_normal.png"), normals(256, hammered_height, 0.05), 3)
     write_hdr(path("sky.hdr"), 256, 128, sky)
     write_hdr(path("room.hdr"), 128, 64, room)
+    write_hdr(path("noon.hdr"), 1024, 512, noon)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ shape() {
     "$mesh" "$@" --triangles 4000 2>/dev/null | cmp -s - shape.obj || fail "$*: another mesh, run again"
     expect 0 '' "$clrt" --check scene.txt
 }
-for name in knot ball gear pot vase bloom stalk; do
+for name in knot ball gear pot vase tumbler goblet bloom stalk; do
     shape $name --normals --uvs
     grep -q '^f [0-9]*/[0-9]*/[0-9]* ' shape.obj || fail "$name: corners without uvs or normals"
 done

@@ -12,7 +12,7 @@
 #include "budget/budget.h"
 #include "scene/parse.h"
 
-static ErrorBudget budget_of(const char *text)
+static ErrorBudget budget_clamped(const char *text, const BudgetPool *pool, f32 clamp)
 {
     Arena *arena = arena_create();
     Diagnostics *diagnostics = diagnostics_create();
@@ -24,13 +24,18 @@ static ErrorBudget budget_of(const char *text)
     }
     Layout *layout = layout_create(scene, &error);
     assert_non_null(layout);
-    const BudgetPool pool = {.pixels = 1};
     const SceneBounds bounds = scene_bounds(scene, layout);
-    const ErrorBudget budget = budget_make(scene, &bounds, &pool, 8, NAN);
+    const ErrorBudget budget = budget_make(scene, &bounds, pool, clamp, 8, NAN);
     layout_destroy(layout);
     diagnostics_destroy(diagnostics);
     arena_destroy(arena);
     return budget;
+}
+
+static ErrorBudget budget_of(const char *text)
+{
+    const BudgetPool pool = {.pixels = 1};
+    return budget_clamped(text, &pool, 0);
 }
 
 static void is_about(f64 value, f64 expected)
@@ -125,6 +130,52 @@ static void without_bound(void **state)
     assert_non_null(bright.bounds.unbounded);
 }
 
+// A limit of samples bounds what nothing else does, but for a filter that gives some of them negative weights.
+static void limits_of_samples(void **state)
+{
+    (void)state;
+    const BudgetPool pool = {.pixels = 1};
+#define PANEL(image) \
+    "image { " image " } light rectangle { corner 3 4 0 edge1 1 0 0 edge2 0 0 1 radiance 9 } " \
+    "sphere { center 0 0 -4 radius 1 }"
+    const ErrorBudget without = budget_of(PANEL("samples 4")), budget = budget_clamped(PANEL("samples 4"), &pool, 2);
+    assert_non_null(without.bounds.unbounded);
+    assert_null(budget.bounds.unbounded);
+    assert_string_equal(budget_assumption(&budget), "bounded");
+    for (int c = 0; c < 3; c++)
+        assert_true(budget.bounds.radiance[c] == 2);
+    const ErrorBudget lobes = budget_clamped(PANEL("samples 4 filter mitchell"), &pool, 2);
+    assert_non_null(lobes.bounds.unbounded);
+    assert_string_equal(budget_assumption(&lobes), "normal");
+    assert_true(budget_clamped(PANEL("samples 1 filter mitchell"), &pool, 2).bounds.radiance[0] == 2);
+    const ErrorBudget wide = budget_clamped("background 0.25 0.5 4", &pool, 2);
+    is_about(wide.bounds.radiance[0], 0.25);
+    is_about(wide.bounds.radiance[1], 0.5);
+    assert_true(wide.bounds.radiance[2] == 2);
+}
+
+// Four pixels of 5 samples, 12 values with the mean 0.5. The samples of one lost 6, 3 and 1.5 in all.
+static void what_a_limit_took(void **state)
+{
+    (void)state;
+    const BudgetPool pool = {.pixels = 4, .radiance = 6, .clamped = 10.5, .clamped_squared = 36 + 9 + 2.25,
+                             .clamped_samples = 3};
+    const ErrorBudget budget = budget_clamped("image { samples 5 } background 4", &pool, 1);
+    is_about(budget.clamp.removed, 10.5 / 60);
+    is_about(budget.clamp.share, 0.175 / 0.675);
+    is_about(budget.clamp.rmse, sqrt((1.2 * 1.2 + 0.6 * 0.6 + 0.3 * 0.3) / 12));
+    assert_true(budget.clamp.limit == 1 && budget.clamp.clamped == 3 && budget.clamp.samples == 20);
+    is_about(budget.total, budget.sampling.rmse + budget.clamp.rmse);
+    char text[1024];
+    budget_summary(&budget, text, sizeof text);
+    assert_non_null(strstr(text, "; clamp 1: bias of the mean -0.175, rmse 0.397, 3 of 20 samples; "));
+    const ErrorBudget without = budget_clamped("image { samples 5 } background 4", &pool, 0);
+    assert_true(without.clamp.rmse == 0 && without.clamp.removed == 0);
+    is_about(without.total, without.sampling.rmse);
+    budget_summary(&without, text, sizeof text);
+    assert_null(strstr(text, "clamp"));
+}
+
 // A light that grows without limit is as bright as its nearest surface is near: 2, whatever the shape is.
 static void nearest_surfaces(void **state)
 {
@@ -160,6 +211,7 @@ int main(void)
         cmocka_unit_test(parallel_mirrors), cmocka_unit_test(cut_off),
         cmocka_unit_test(nothing_follows),  cmocka_unit_test(textures_and_channels),
         cmocka_unit_test(without_bound),    cmocka_unit_test(nearest_surfaces),
+        cmocka_unit_test(limits_of_samples), cmocka_unit_test(what_a_limit_took),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

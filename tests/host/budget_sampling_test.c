@@ -43,6 +43,19 @@ static void pool_counts(void **state)
     assert_int_equal(sampling_budget(&pool, 4, GREY, 0.95).assumption, SAMPLING_NONE);
 }
 
+static void pool_counts_what_is_clamped(void **state)
+{
+    (void)state;
+    const f32 rows[2][8] = {{1, 2, 3, 5, 0, 0, 0, 0}, {-0.5f, 0, 0.25f, 1, 1, 1, 1, 1048576}};
+    BudgetPool pool = {0};
+    budget_pool_add_clamped(&pool, NULL, 2);
+    assert_true(pool.clamped == 0 && pool.clamped_squared == 0 && pool.clamped_samples == 0);
+    for (int i = 0; i < 2; i++)
+        budget_pool_add_clamped(&pool, rows[i], 2);
+    assert_true(pool.clamped == 8.75 && pool.clamped_squared == 17.3125);
+    assert_int_equal(pool.clamped_samples, 1048582);
+}
+
 static void nothing_is_said(void **state)
 {
     (void)state;
@@ -153,9 +166,10 @@ static void coverage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pool_counts), cmocka_unit_test(nothing_is_said),
-        cmocka_unit_test(by_hand),     cmocka_unit_test(black_is_not_trusted),
-        cmocka_unit_test(monotone),    cmocka_unit_test(coverage),
+        cmocka_unit_test(pool_counts),     cmocka_unit_test(pool_counts_what_is_clamped),
+        cmocka_unit_test(nothing_is_said), cmocka_unit_test(by_hand),
+        cmocka_unit_test(monotone),        cmocka_unit_test(black_is_not_trusted),
+        cmocka_unit_test(coverage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

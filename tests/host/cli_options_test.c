@@ -99,6 +99,9 @@ static void reads_values(void **state)
     assert_true(options.exposure == -1.5);
     assert_int_equal(options.crop_x, 65535);
     assert_int_equal(options.crop_height, 65536);
+    assert_true(accepted("a b").clamp == 0);
+    assert_true(accepted("--clamp 2.5 a b").clamp == 2.5f);
+    assert_true(accepted("--clamp=1e-37 a b").clamp == 1e-37f);
     options = accepted("--tone-map aces a b");
     assert_int_equal(options.tone_map, TONE_MAP_ACES);
     options = accepted("--tone-map none a b");
@@ -128,7 +131,8 @@ static void refuses_values_out_of_range(void **state)
         "--exposure inf", "--exposure nan", "--exposure 0x1", "--exposure 1e39", "--tone-map filmic",
         "--tone-map reinhard_extended", "--tone-map reinhard_extended,0", "--tone-map reinhard_extended,-1",
         "--memory 0", "--memory 16777217",
-        "--threads 0", "--math fat", "--math Exact", "--math=", "--stats=", "--samples="};
+        "--clamp 0", "--clamp -1", "--clamp nan", "--clamp inf", "--clamp 1e39", "--clamp 1e-39", "--clamp 2x",
+        "--clamp=", "--threads 0", "--math fat", "--math Exact", "--math=", "--stats=", "--samples="};
     for (size_t i = 0; i < sizeof LINES / sizeof LINES[0]; i++) {
         char line[128];
         Options options;

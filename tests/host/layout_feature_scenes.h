@@ -120,7 +120,14 @@ static const FeatureScenes feature_scenes[] = {
      "image { samples 4 filter tent }\n" SHAPE_BALL},
     {FEATURE_FILTER_LOBES, "image { samples 4 filter mitchell }\n" SHAPE_BALL,
      "image { samples 4 filter gaussian }\n" SHAPE_BALL},
+    {FEATURE_CLAMP, SHAPE_BALL, SHAPE_BALL},
 };
+
+// What a render must be asked for to have the feature of these scenes.
+static inline FeatureSet feature_scenes_asked(const FeatureScenes *scenes)
+{
+    return feature_bit(scenes->feature) & FEATURES_OF_RENDERS;
+}
 
 enum { FEATURE_SCENE_COUNT = sizeof feature_scenes / sizeof *feature_scenes };
 

@@ -1,6 +1,6 @@
 #include "film.h"
 
-#include "quadrature.h"
+#include "path.h"
 
 real filter_radius(Filter filter)
 {
@@ -38,6 +38,11 @@ real filter_value(Filter filter, real x)
     return 0;
 }
 
+real filter_integral(Filter filter)
+{
+    return filter == FILTER_GAUSSIAN ? sqrtl(PI / 2) * erfl(1.5L * sqrtl(2)) - 3 * expl(-4.5L) : 1;
+}
+
 /* Through one position of the image, by all of the lens. */
 static Vec position_value(const Scene *scene, const Camera *camera, real px, real py)
 {
@@ -69,4 +74,46 @@ Vec film_pixel(const Scene *scene, const Camera *camera, int grid, int x, int y,
         }
     }
     return scaled(sum, 1 / weights);
+}
+
+/* One path about the pixel's centre (px, py). */
+static Vec path_value(const Scene *scene, const Camera *camera, real px, real py, Chance *chance)
+{
+    Filter filter = scene->filter;
+    Vec lens = disk_point(chance_draw(chance));
+    Square place = chance_draw(chance);
+    if (chance->count == 1) {
+        Ray ray = camera_ray(camera, px, py, lens);
+        return path_radiance(scene, &ray, chance);
+    }
+    real support = 2 * filter_radius(filter);
+    real fx = (place.x - 0.5L) * support;
+    real fy = (place.y - 0.5L) * support;
+    Ray ray = camera_ray(camera, px + fx, py + fy, lens);
+    real weight = filter_value(filter, fx) * filter_value(filter, fy) * support * support /
+                  (filter_integral(filter) * filter_integral(filter));
+    return scaled(path_radiance(scene, &ray, chance), weight);
+}
+
+Estimate film_paths(const Scene *scene, const Camera *camera, const Paths *paths, int x, int y, real dx,
+                    real dy)
+{
+    uint64_t key = key_with(key_with(paths->seed, (uint64_t)x), (uint64_t)y);
+    int count = paths->grid * paths->grid;
+    Vec sum = grey(0);
+    Vec squares = grey(0);
+    for (int round = 0; round < paths->rounds; round++) {
+        Vec value = grey(0);
+        for (int i = 0; i < count; i++) {
+            Chance chance = chance_make(key_with(key, (uint64_t)round), count, i);
+            value = add(value, path_value(scene, camera, x + 0.5L + dx, y + 0.5L + dy, &chance));
+        }
+        value = scaled(value, 1 / (real)count);
+        sum = add(sum, value);
+        squares = add(squares, times(value, value));
+    }
+    real rounds = paths->rounds;
+    Vec mean = scaled(sum, 1 / rounds);
+    Vec spread = sub(scaled(squares, 1 / rounds), times(mean, mean));
+    return (Estimate){mean, scaled(spread, 1 / fmaxl(1, rounds - 1))};
 }

@@ -2,18 +2,7 @@
 #ifndef ORACLE_GATHER_H
 #define ORACLE_GATHER_H
 
-#include "look.h"
-
-/* A hit with its normals turned to the ray's origin. */
-typedef struct Spot {
-    const Scene *scene;
-    const Hit *hit;
-    Look look;
-    Vec d;         /* of the ray that came */
-    Vec geometric, normal;
-    Vec mirror;    /* the normal of reflection, refraction and fresnel */
-    bool entering;
-} Spot;
+#include "spot.h"
 
 Vec gather_lights(const Spot *spot);
 /* Only pbr takes it. */

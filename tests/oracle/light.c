@@ -48,6 +48,29 @@ static bool rectangle_arrives(const Light *light, Vec p, Square s, Arrival *arri
     return true;
 }
 
+real light_density(const Light *light, Vec p, Vec l)
+{
+    if (light->kind == LIGHT_SPHERE) {
+        Vec way = sub(light->position, p);
+        real d = length(way);
+        if (d <= light->radius)
+            return 0;
+        real ratio = light->radius / d;
+        real narrowest = sqrtl(1 - ratio * ratio);
+        return dot(way, l) >= d * narrowest ? 1 / (2 * PI * (1 - narrowest)) : 0;
+    }
+    /* Where the ray meets the plane, in shares of the edges; the normal's length is the area. */
+    Vec normal = cross(light->edges[0], light->edges[1]);
+    real facing = -dot(l, normal);
+    real t = dot(sub(p, light->position), normal) / facing;
+    if (!(facing > 0 && t > 0))
+        return 0;
+    Vec across = sub(add(p, scaled(l, t)), light->position);
+    real x = dot(cross(across, light->edges[1]), normal) / dot(normal, normal);
+    real y = dot(cross(light->edges[0], across), normal) / dot(normal, normal);
+    return x >= 0 && x <= 1 && y >= 0 && y <= 1 ? t * t / facing : 0;
+}
+
 Vec light_seen(const Light *light, Vec d, Vec normal)
 {
     return dot(d, normal) < 0 ? light->intensity : grey(0);

@@ -75,3 +75,21 @@ Vec look_reflected(const Look *look, Vec n, Vec to_light, Vec to_eye)
     real s = specular_term(look->material->blinn, look->material->shininess, n, to_light, to_eye);
     return add(scaled(look->diffuse, cosine), scaled(look->material->specular, s));
 }
+
+Vec look_brdf(const Look *look, Vec n, Vec to_light, Vec to_eye)
+{
+    const Material *material = look->material;
+    if (material->pbr)
+        return pbr_brdf(look, n, to_light, to_eye);
+    real norm = material->blinn ? (material->shininess + 8) / (8 * PI) : (material->shininess + 2) / (2 * PI);
+    real s = specular_term(material->blinn, material->shininess, n, to_light, to_eye);
+    return add(scaled(look->diffuse, 1 / PI), scaled(material->specular, norm * s));
+}
+
+bool look_scatters(const Look *look)
+{
+    if (!look->material->pbr)
+        return largest(look->diffuse) > 0 || largest(look->material->specular) > 0;
+    real diffuse = (1 - look->metallic) * (1 - look->material->share_transmitted) * largest(look->base);
+    return diffuse > 0 || (look->roughness >= MIRROR_ROUGHNESS && look->m < 1);
+}

@@ -27,6 +27,12 @@ real ggx_visibility(real a, real n_l, real n_v);
 /* brdf of section 5; of a mirror its diffuse part. */
 Vec pbr_brdf(const Look *look, Vec n, Vec to_light, Vec to_eye);
 
+/* The brdf of section 6, without mirrors and smooth transmission. N.L > 0. */
+Vec look_brdf(const Look *look, Vec n, Vec to_light, Vec to_eye);
+
+/* Whether that brdf can be more than 0. */
+bool look_scatters(const Look *look);
+
 /* What is reflected of a punctual light of intensity 1, or of an irradiance of 1: phong and blinn_phong take
  * I / attenuation or E / pi for it, pbr I / attenuation or E. N.L > 0. */
 Vec look_reflected(const Look *look, Vec n, Vec to_light, Vec to_eye);

@@ -7,10 +7,12 @@
 #include "picture.h"
 
 typedef struct Options {
-    const char *scene, *out, *unstable;
+    const char *scene, *out, *unstable, *variance;
     int width, height; /* 0: the scene's */
     int bits, grid;    /* grid 0: the pixel's centre, or 16 where the scene has several samples */
     int points;        /* 0: the scene's default */
+    int rounds;
+    unsigned int seed;
     int threshold;     /* levels; 0: one 8-bit level */
     double dx, dy;
     bool pfm;
@@ -23,6 +25,9 @@ static const char USAGE[] =
     "  --offset DX,DY      moves every sample, in pixels (0,0)\n"
     "  --samples-grid K    K x K staggered positions a pixel, by the filter's weights\n"
     "  --points N          points of each integral over a light, a lens, a hemisphere (256)\n"
+    "  --rounds N          integrator path: as many times a path through each position (16)\n"
+    "  --seed N            integrator path: another number, other paths (0)\n"
+    "  --variance PFM      integrator path: also writes the variance of each value\n"
     "  --unstable MASK     also writes a PNG: 255 where the value changes by more than the threshold\n"
     "                      at one of eight positions 0.02 pixel away\n"
     "  --threshold LEVELS  of --unstable, in levels of --bits (one 8-bit level)\n"
@@ -43,6 +48,14 @@ static bool read_option(Options *options, const char *name, const char *value)
         return sscanf(value, "%d", &options->points) == 1 && options->points > 0;
     if (strcmp(name, "--threshold") == 0)
         return sscanf(value, "%d", &options->threshold) == 1 && options->threshold > 0;
+    if (strcmp(name, "--rounds") == 0)
+        return sscanf(value, "%d", &options->rounds) == 1 && options->rounds > 1;
+    if (strcmp(name, "--seed") == 0)
+        return sscanf(value, "%u", &options->seed) == 1;
+    if (strcmp(name, "--variance") == 0) {
+        options->variance = value;
+        return true;
+    }
     options->unstable = value;
     return strcmp(name, "--unstable") == 0;
 }
@@ -91,6 +104,21 @@ static bool is_unstable(const Scene *scene, const Camera *camera, const Options 
     return false;
 }
 
+static void render_paths(const Scene *scene, const Options *options, Picture *picture, Picture *variance)
+{
+    Camera camera = camera_make(scene);
+    Paths paths = {options->grid, options->rounds, options->seed};
+#pragma omp parallel for schedule(dynamic)
+    for (int y = 0; y < scene->height; y++) {
+        for (int x = 0; x < scene->width; x++) {
+            size_t i = (size_t)y * (size_t)scene->width + (size_t)x;
+            Estimate value = film_paths(scene, &camera, &paths, x, y, options->dx, options->dy);
+            picture->pixels[i] = value.mean;
+            variance->pixels[i] = value.variance;
+        }
+    }
+}
+
 static void render(const Scene *scene, const Options *options, Picture *picture, unsigned char *mask)
 {
     Camera camera = camera_make(scene);
@@ -107,7 +135,7 @@ static void render(const Scene *scene, const Options *options, Picture *picture,
 
 int main(int argc, char **argv)
 {
-    Options options = {.bits = 8};
+    Options options = {.bits = 8, .rounds = 16};
     if (!read_options(&options, argc, argv)) {
         fputs(USAGE, stderr);
         return 2;
@@ -125,14 +153,24 @@ int main(int argc, char **argv)
         options.grid = scene.samples > 1 ? 16 : 1;
     if (options.threshold == 0)
         options.threshold = options.bits == 16 ? 257 : 1;
+    if (scene.path ? options.unstable != NULL : options.variance != NULL)
+        die("%s is not for this integrator", scene.path ? "--unstable" : "--variance");
     size_t count = (size_t)scene.width * (size_t)scene.height;
     Picture picture = {scene.width, scene.height, store_alloc(&scene.store, count * sizeof *picture.pixels)};
     unsigned char *mask = options.unstable != NULL ? store_alloc(&scene.store, count) : NULL;
-    render(&scene, &options, &picture, mask);
+    Picture variance = picture;
+    if (scene.path) {
+        variance.pixels = store_alloc(&scene.store, count * sizeof *variance.pixels);
+        render_paths(&scene, &options, &picture, &variance);
+    } else {
+        render(&scene, &options, &picture, mask);
+    }
     if (options.pfm)
         picture_write_pfm(&picture, options.out);
     else
         picture_write_png(&picture, &scene, options.bits, options.out);
+    if (options.variance != NULL)
+        picture_write_pfm(&variance, options.variance);
     if (mask != NULL)
         mask_write_png(mask, scene.width, scene.height, options.unstable);
     scene_free(&scene);

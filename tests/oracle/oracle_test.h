@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "spot.h"
 #include "trace.h"
 
 #define CASES(tests) (sizeof(tests) / sizeof(tests)[0])

@@ -57,6 +57,12 @@ static void parse_occlusion(Parser *parser)
     parser->scene->occlusion_distance = parse_number(parser);
 }
 
+static bool parse_integrator(Parser *parser)
+{
+    static const char *const NAMES[] = {"whitted", "path"};
+    return parse_choice(parser, NAMES, 2) == 1;
+}
+
 static void parse_render(Parser *parser)
 {
     Scene *scene = parser->scene;
@@ -74,7 +80,9 @@ static void parse_render(Parser *parser)
             parse_number(parser);
         else if (parse_accept(parser, "environment_lighting") && parse_accept(parser, "sampled"))
             continue;
-        else if (!(parse_accept(parser, "integrator") && parse_accept(parser, "whitted")))
+        else if (parse_accept(parser, "integrator"))
+            scene->path = parse_integrator(parser);
+        else
             parse_unknown(parser, "property");
     }
 }

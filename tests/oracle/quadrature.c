@@ -1,7 +1,8 @@
 #include "quadrature.h"
 
-#include <stdint.h>
 #include <string.h>
+
+#define GOLDEN 0.61803398874989484820458683436563812L
 
 /* The finaliser of splitmix64. */
 static uint64_t mixed(uint64_t x)
@@ -29,7 +30,36 @@ Lattice lattice_at(int count, Vec p, int which)
 Square lattice_point(const Lattice *lattice, int index)
 {
     real x = ((real)index + lattice->shift[0]) / lattice->count;
-    real y = (real)index * 0.61803398874989484820458683436563812L + lattice->shift[1];
+    real y = (real)index * GOLDEN + lattice->shift[1];
+    return (Square){x, y - floorl(y)};
+}
+
+uint64_t key_with(uint64_t key, uint64_t number)
+{
+    return mixed(key ^ mixed(number));
+}
+
+Chance chance_make(uint64_t key, int count, int index)
+{
+    return (Chance){key, count, index, 0};
+}
+
+static uint64_t common_divisor(uint64_t a, uint64_t b)
+{
+    return b == 0 ? a : common_divisor(b, a % b);
+}
+
+Square chance_draw(Chance *chance)
+{
+    uint64_t shift = key_with(chance->key, chance->drawn++);
+    uint64_t order = mixed(shift);
+    uint64_t count = (uint64_t)chance->count;
+    uint64_t step = (order >> 32) % count + 1;
+    while (common_divisor(step, count) > 1)
+        step++;
+    uint64_t place = (step * (uint64_t)chance->index + (order & 0xffffffffu)) % count;
+    real x = ((real)place + (real)(shift >> 32) * 0x1p-32L) / chance->count;
+    real y = (real)place * GOLDEN + (real)(shift & 0xffffffffu) * 0x1p-32L;
     return (Square){x, y - floorl(y)};
 }
 

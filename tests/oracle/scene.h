@@ -159,6 +159,7 @@ typedef struct Scene {
     real focus_distance; /* 0: the distance to look_at */
     int max_depth;
     real min_weight;
+    bool path; /* integrator path */
     bool shadows;
     real occlusion_distance; /* of ambient occlusion; 0: off */
     int points; /* of the quadrature over an area light, a hemisphere, the environment */

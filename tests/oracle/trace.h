@@ -17,10 +17,6 @@ Camera camera_make(const Scene *scene);
 /* px, py in pixels from the top-left corner of the image; lens: a point of the unit disk. */
 Ray camera_ray(const Camera *camera, real px, real py, Vec lens);
 
-/* Exact unpolarised reflectance of a dielectric; `cosine` of the incoming angle >= 0, `eta` the ratio of the
- * indices before and behind. 1 on total internal reflection. */
-real fresnel_reflectance(real cosine, real eta);
-
 /* Radiance along a camera ray. */
 Vec trace_radiance(const Scene *scene, const Ray *ray);
 

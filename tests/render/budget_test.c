@@ -59,7 +59,7 @@ static ErrorBudget render_once(Render *render, u32 seed, const Known *known, con
         done += rows.count;
     }
     assert_int_equal(done, side);
-    return budget_make(scene, bounds, &pool, 8, NAN);
+    return budget_make(scene, bounds, &pool, 0, 8, NAN);
 }
 
 static void judge(const Known *known, const ErrorBudget *budget, const f32 *rgb, Tally *tally)

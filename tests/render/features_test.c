@@ -74,6 +74,7 @@ static const struct {
     {FEATURE_FILTER_TENT, {"left ? u", NULL, NULL}},
     {FEATURE_FILTER_TABLE, {"centered", NULL, NULL}},
     {FEATURE_FILTER_LOBES, {"weigh_samples", "filter_sign", NULL}},
+    {FEATURE_CLAMP, {"clamp_samples", "film_add_clamped", "clamp_limit"}},
 };
 
 #define BIT(name) ((FeatureSet)1 << FEATURE_##name)
@@ -91,7 +92,7 @@ static const struct {
     {"nodes", BIT(BVH)},           {"lights", BIT(LIGHTS)},   {"textures", BIT(CHECKER) | BIT(CHECKER3D) | BIT(IMAGE)},
     {"texels", BIT(IMAGE)},
     {"frames", BIT(CHECKER3D)},    {"film_low", BIT(SAMPLES)}, {"extras", BIT(TRIANGLE_EXTRA)},
-    {"film_m2", BIT(SAMPLES)},
+    {"film_m2", BIT(SAMPLES)}, {"film_clamped", BIT(CLAMP)}, {"clamp_limit", BIT(CLAMP)},
     {"environment", BIT(ENVIRONMENT)}, {"environment_texels", BIT(ENVIRONMENT)},
     {"environment_cdf", BIT(ENVIRONMENT_LIGHT)}, {"environment_edges", BIT(ENVIRONMENT_LIGHT)},
     {"environment_levels", BIT(PREFILTERED)},
@@ -246,10 +247,11 @@ static void find_reached(ProgramText *program)
     }
 }
 
-static ProgramText program_make(const char *scene)
+// asked: features of renders.
+static ProgramText program_make(const char *scene, FeatureSet asked)
 {
     Layout *layout = layout_of(scene);
-    ProgramText program = {.features = layout->features};
+    ProgramText program = {.features = layout->features | asked};
     program.functions = calloc(FUNCTIONS_MAX, sizeof *program.functions);
     layout_destroy(layout);
     assert_non_null(program.functions);
@@ -277,7 +279,8 @@ static int make_programs(void **state)
     ProgramText *programs = calloc(PROGRAMS, sizeof *programs);
     assert_non_null(programs);
     for (u32 i = 0; i < PROGRAMS; i++)
-        programs[i] = program_make(i % 2 ? feature_scenes[i / 2].without : feature_scenes[i / 2].with);
+        programs[i] = i % 2 ? program_make(feature_scenes[i / 2].without, 0)
+                            : program_make(feature_scenes[i / 2].with, feature_scenes_asked(&feature_scenes[i / 2]));
     *state = programs;
     return 0;
 }

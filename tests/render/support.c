@@ -57,6 +57,9 @@ static void take_rows(Render *render, Picture *picture)
         if (rows.count)
             memcpy(picture->rgb + (size_t)done * picture->width * 3, rows.rgb,
                    (size_t)rows.count * picture->width * 3 * sizeof(f32));
+        if (rows.count && rows.clamped)
+            memcpy(picture->clamped + (size_t)done * picture->width * 4, rows.clamped,
+                   (size_t)rows.count * picture->width * 4 * sizeof(f32));
         done += rows.count;
     }
     assert_int_equal(done, picture->height);
@@ -72,10 +75,11 @@ Picture render_layout(Device *device, const Layout *layout, const RenderHow *how
                        .height = crop ? how->height : layout->params.height};
     const RenderJob job = {.layout = layout, .device = device, .left = how->left, .top = how->top,
                            .width = picture.width, .height = picture.height, .memory_limit = how->memory,
-                           .math = how->math};
+                           .math = how->math, .clamp = how->clamp};
     Error error = {0};
     picture.rgb = calloc((size_t)picture.width * picture.height * 3, sizeof(f32));
     assert_non_null(picture.rgb);
+    picture.clamped = how->clamp > 0 ? calloc((size_t)picture.width * picture.height * 4, sizeof(f32)) : NULL;
     if (how->shape)
         setenv("CLRT_SHAPE", how->shape, 1);
     Render *render = render_create(&job, &error);
@@ -99,6 +103,7 @@ Picture render_text(Device *device, const char *text, const RenderHow *how)
 void picture_destroy(Picture *picture)
 {
     free(picture->rgb);
+    free(picture->clamped);
     memset(picture, 0, sizeof *picture);
 }
 

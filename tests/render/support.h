@@ -34,11 +34,13 @@ typedef struct RenderHow {
     u64 memory;        // bytes
     u32 left, top, width, height; // crop; width 0: the whole image
     MathMode math;
+    f32 clamp;
 } RenderHow;
 
 typedef struct Picture {
     u32 width, height;
     f32 *rgb; // 3 numbers a pixel, top first
+    f32 *clamped; // RenderRows.clamped, NULL where clamp is 0
     RenderStats stats;
 } Picture;
 

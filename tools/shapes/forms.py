@@ -129,6 +129,26 @@ def vase(triangles):
     return [wall]
 
 
+def tumbler(triangles):
+    """A straight drinking glass with a thick bottom, 1 high; its surface is closed."""
+    columns, rows = pieces(triangles / 2, 1.2)
+    profile = spline([(0.0, 0.012), (0.12, 0.010), (0.24, 0.0), (0.285, 0.012), (0.30, 0.05), (0.32, 0.25),
+                      (0.36, 0.62), (0.397, 0.97), (0.397, 0.993), (0.388, 1.0), (0.379, 0.993), (0.375, 0.97),
+                      (0.338, 0.62), (0.300, 0.25), (0.285, 0.16), (0.24, 0.128), (0.12, 0.122), (0.0, 0.12)])
+    return [lathe(profile, columns, rows, "glass")]
+
+
+def goblet(triangles):
+    """A wine glass on a stem, 1 high; its surface is closed."""
+    columns, rows = pieces(triangles / 2, 2.0)
+    profile = spline([(0.0, 0.015), (0.10, 0.008), (0.22, 0.0), (0.245, 0.006), (0.235, 0.018), (0.12, 0.032),
+                      (0.045, 0.06), (0.026, 0.13), (0.022, 0.25), (0.026, 0.37), (0.06, 0.43), (0.17, 0.50),
+                      (0.255, 0.60), (0.275, 0.70), (0.25, 0.84), (0.212, 0.985), (0.211, 0.996), (0.206, 1.0),
+                      (0.201, 0.996), (0.201, 0.985), (0.238, 0.84), (0.262, 0.70), (0.242, 0.605), (0.16, 0.515),
+                      (0.06, 0.455), (0.0, 0.445)])
+    return [lathe(profile, columns, rows, "glass")]
+
+
 def bloom(triangles):
     """The six petals of a tulip, 1 high, open above; sheets without thickness."""
     columns = max(2, round(math.sqrt(triangles / 12 / 1.6)))

@@ -1,0 +1,363 @@
+// The path integrator: a wave of paths that stays full. Each slot follows one path; where it ends the next camera ray
+// takes its place. Radiance of samples waits in a ring until all of their round are done, and then enters the film
+// in the order of rounds: so the film sees the samples of a pixel in their order.
+#ifndef CLRT_KERNELS_STAGES_PATH_H
+#define CLRT_KERNELS_STAGES_PATH_H
+
+#include "stages/film.h"
+#include "stages/path_light.h"
+#include "stages/trace.h"
+
+// Bits of FLAGS beside bit 0, a shadow ray, and FLAG_NEXT.
+#define FLAG_ENDED (1 << 29)
+
+// Rays of this depth and deeper go on with a probability.
+#define ROULETTE_DEPTH 4
+
+// A round of samples of a tile.
+typedef struct {
+    Tile tile;
+    uint begin, end; // samples
+} PathRound;
+
+// What a group works on.
+typedef struct {
+    State s, pool; // of the slots, and of camera rays that wait
+    const Hierarchy *scene;
+    const Shading *shading;
+    global const LightRecord *lights;
+    constant RenderParams *params;
+    global const f32 *quantiles;
+    global f32 *film, *film_low, *film_m2;
+#if HAS_CLAMP
+    global f32 *film_clamped;
+    f32 clamp_limit;
+#endif
+    PathSettings settings;
+    PathRound ring[PATH_ROUNDS];
+    uint tile, tiles;  // the next one, of all of the band
+    uint band_top, band_rows;
+    uint sample, sample_begin, sample_end; // the next one of the tile's pixels, of those of the launch
+    uint begun, done;  // number of the youngest round, and of the first that is not in the film, from 1
+    uint waiting, started; // camera rays of the youngest round, and those that have a slot or had one
+    uint count;        // slots with a path; the first of the queue
+    local uint *scratch;
+    uint *rays;
+} PathWave;
+
+// Fills the queues, in which every place must be the number of a slot, and every slot is once.
+static inline void path_wave_clear(PathWave *w)
+{
+    global int *ints = w->s.ints;
+    w->begun = w->waiting = w->started = w->count = 0;
+    w->done = 1;
+    for (uint i = GROUP_ITEM; i < TILE_SLOTS; i += GROUP)
+        ints[QUEUE * TILE_SLOTS + i] = ints[QUEUE_NEXT * TILE_SLOTS + i] = ints[ENDED * TILE_SLOTS + i] = (int)i;
+    GROUP_BARRIER();
+}
+
+// The ray that follows, weighed by roulette. u decides. Returns what goes on.
+static inline vm path_survives(v3 *throughput, vi depth, vf u)
+{
+    const vf most = vf_max(vf_max(throughput->x, throughput->y), throughput->z);
+    const vf chance = depth >= (vi)(ROULETTE_DEPTH) ? vf_min(most, (vf)(1.0f)) : (vf)(1.0f);
+    *throughput = v3_scale(*throughput, (vf)(1.0f) / (chance > (vf)(0.0f) ? chance : (vf)(1.0f)));
+    return (u < chance) & (most > (vf)(0.0f));
+}
+
+// Puts the ray that follows the hit in flight; returns FLAG_NEXT where there is one, else FLAG_ENDED.
+OUTLINE vi path_spawn(const PathWave *w, const Slots *slots, const Hit *hit, const PathParts *parts,
+#if HAS_REFLECT || HAS_TRANSMIT
+                      const Scatter *scatter,
+#endif
+                      v3 throughput, vi depth, vi instance, vf roulette, vm going)
+{
+    const State *s = &w->s;
+    NextRay next;
+    const SamplePoint point = sample_point(hit_random_pair(&hit->random, PAIR_SCATTER));
+#if HAS_REFLECT || HAS_TRANSMIT
+    const PathDraw drawn = path_draw(hit, parts, scatter, point);
+#else
+    const PathDraw drawn = path_draw(hit, parts, point);
+#endif
+    const v3 side = v3_select(drawn.through, v3_neg(hit->ng), hit->ng);
+    next.throughput = v3_mul(throughput, drawn.weight);
+    const vm survives = path_survives(&next.throughput, depth + 1, roulette);
+    next.m = going & drawn.on & survives & (v3_dot(drawn.dir, side) > (vf)(0.0f));
+    next.dir = drawn.dir;
+    next.org = offset_origin(hit->point, hit->error, hit->ng, side);
+    next.self = hit->primitive * 2 + (drawn.through != hit->inside ? (vi)(1) : (vi)(0));
+    next.path = path_follow(&hit->random, (vm)(0));
+    w->rays[RAYS_TRANSMITTED] += popcount(vm_bits(next.m & drawn.through));
+    w->rays[RAYS_REFLECTED] += popcount(vm_bits(next.m & !drawn.through));
+    store_ray(s, slots, &next, depth + 1, instance, slots->valid);
+    state_store(s, DENSITY, slots, drawn.density, slots->valid);
+    return next.m ? (vi)(FLAG_NEXT) : (vi)(FLAG_ENDED);
+}
+
+#if HAS_LIGHTS
+// Light of the lights on the hit: queued as a shadow ray, or added at once where nothing casts shadows. Returns
+// bit 0 of FLAGS.
+OUTLINE vi path_lights(const PathWave *w, const Slots *slots, const Hit *hit, const PathParts *parts,
+                       v3 throughput, vf choice, v3 *radiance, vm lit)
+{
+    const PathLightRay ray =
+        path_light_ray(hit, w->shading, w->lights, &w->settings, parts, choice, lit);
+    const v3 gain = v3_mul(throughput, ray.gain);
+#if HAS_SHADOWS
+    const State *s = &w->s;
+    const vm arrives = lit & (brightness(gain) > (vf)(0.0f));
+    const vi self = hit->primitive * 2 + (hit->inside ? (vi)(1) : (vi)(0));
+    state_store_int(s, SHADOW_SELF, slots, self, slots->valid);
+    state_store_int(s, SHADOW_LEFT_OUT, slots, ray.left_out, slots->valid);
+    state_store_int(s, SHADOW_PLANES, slots, ray.planes, slots->valid);
+    state_store3(s, SHADOW_ORG, slots, shadow_origin(hit), slots->valid);
+    state_store3(s, SHADOW_LIGHTS + SHADOW_DIR, slots, ray.dir, slots->valid);
+    state_store(s, SHADOW_LIGHTS + SHADOW_T, slots, ray.length, slots->valid);
+    state_store3(s, SHADOW_LIGHTS + SHADOW_GAIN, slots, gain, slots->valid);
+    return arrives ? (vi)(1) : (vi)(0);
+#else
+    *radiance = v3_select(lit, v3_add(*radiance, gain), *radiance);
+    return (vi)(0);
+#endif
+}
+#endif
+
+// The rays of the queue that have met a surface, in the lanes of m. Returns FLAGS.
+OUTLINE vi path_shade_hits(const PathWave *w, const Slots *slots, vf t, v3 throughput, v3 *radiance, vm m)
+{
+    const State *s = &w->s;
+    const Shading *shading = w->shading;
+    vi instance = (vi)(NO_HIT);
+#if HAS_INSTANCES
+    instance = state_load_int(s, INSTANCE, slots);
+#endif
+    const v3 org = state_load3(s, RAY_ORG, slots);
+    Hit hit = hit_make(w->scene, shading, org, state_load3(s, RAY_DIR, slots), t,
+                       state_load_int(s, PRIMITIVE, slots), instance);
+    const vi depth = state_load_int(s, DEPTH, slots), most = (vi)((int)w->params->max_depth);
+    hit.random = hit_random(s, slots);
+#if HAS_PBR
+    hit.pbr = hit_pbr(&hit, shading);
+#endif
+#if HAS_EMISSION
+    const v3 shine = path_emission(&hit, shading, w->lights, &w->settings, org, t, state_load(s, DENSITY, slots),
+                                   depth > most);
+    *radiance = v3_select(m, v3_add(*radiance, v3_mul(throughput, shine)), *radiance);
+#endif
+    const vm going = m & (depth <= most);
+    if (!vm_any(going))
+        return (vi)(FLAG_ENDED);
+    const SamplePoint choice = sample_point(hit_random_pair(&hit.random, PAIR_CHOICE));
+#if HAS_REFLECT || HAS_TRANSMIT
+    const Scatter scatter = scatter_make(&hit);
+    const PathParts parts = path_parts(&hit, shading, &w->settings, &scatter, depth == most);
+#else
+    const PathParts parts = path_parts(&hit, shading, &w->settings, depth == most);
+#endif
+    vi flags = (vi)(0);
+#if HAS_LIGHTS
+    flags = path_lights(w, slots, &hit, &parts, throughput, choice.x, radiance, going);
+#endif
+#if HAS_REFLECT || HAS_TRANSMIT
+    flags = flags | path_spawn(w, slots, &hit, &parts, &scatter, throughput, depth, instance, choice.y, going);
+#else
+    flags = flags | path_spawn(w, slots, &hit, &parts, throughput, depth, instance, choice.y, going);
+#endif
+    return flags;
+}
+
+OUTLINE void path_shade(const PathWave *w)
+{
+    const State *s = &w->s;
+    global const int *queue = s->ints + QUEUE * TILE_SLOTS;
+    for (uint i = GROUP_ITEM * LANES; i < w->count; i += GROUP * LANES) {
+        const Slots slots = slots_make(queue, i, w->count);
+        const vf t = state_load(s, RAY_T, &slots);
+        const vm found = slots.valid & (t < (vf)(INFINITY));
+        const v3 throughput = state_load3(s, THROUGHPUT, &slots);
+        v3 radiance = state_load3(s, RADIANCE, &slots);
+        vi flags = (vi)(FLAG_ENDED);
+#if HAS_ENVIRONMENT
+        if (!vm_all(found)) {
+            const v3 sky = path_sky(w->shading, &w->settings, state_load3(s, RAY_DIR, &slots),
+                                    state_load(s, DENSITY, &slots));
+            radiance = v3_select(found, radiance, v3_add(radiance, v3_mul(throughput, sky)));
+        }
+#endif
+        if (vm_any(found)) {
+            const vi shaded = path_shade_hits(w, &slots, t, throughput, &radiance, found);
+            flags = found ? shaded : flags;
+        }
+        state_store3(s, RADIANCE, &slots, radiance, slots.valid);
+        state_store_int(s, FLAGS, &slots, flags, slots.valid);
+    }
+}
+
+// Brings the radiance of the slots that have ended into the ring.
+OUTLINE void path_finish(const State *s, uint count)
+{
+    global const int *ended = s->ints + ENDED * TILE_SLOTS;
+    global real *ring = s->reals + RING_REALS * TILE_SLOTS;
+    for (uint i = GROUP_ITEM * LANES; i < count; i += GROUP * LANES) {
+        const Slots slots = slots_make(ended, i, count);
+        const vi job = state_load_int(s, JOB, &slots);
+        const vi place = ((job / TILE_SLOTS) & (PATH_ROUNDS - 1)) * (3 * TILE_SLOTS) + (job & (TILE_SLOTS - 1));
+        const v3 radiance = state_load3(s, RADIANCE, &slots);
+        vf_scatter(ring, place, radiance.x, slots.valid);
+        vf_scatter(ring, place + TILE_SLOTS, radiance.y, slots.valid);
+        vf_scatter(ring, place + 2 * TILE_SLOTS, radiance.z, slots.valid);
+    }
+}
+
+// Keeps those of the queue that go on, in order, and the others behind them.
+OUTLINE void path_advance(PathWave *w)
+{
+    const State *s = &w->s;
+    global int *queue = s->ints + QUEUE * TILE_SLOTS;
+    global int *next = s->ints + QUEUE_NEXT * TILE_SLOTS, *ended = s->ints + ENDED * TILE_SLOTS;
+    const uint stopped = queue_compact(s, queue, w->count, FLAG_ENDED, ended, w->scratch);
+    const uint left = queue_compact(s, queue, w->count, FLAG_NEXT, next, w->scratch);
+    path_finish(s, stopped);
+    for (uint i = GROUP_ITEM; i < w->count; i += GROUP)
+        queue[i] = i < left ? next[i] : ended[i - left];
+    w->count = left;
+    GROUP_BARRIER();
+}
+
+// The first round that has a path in flight or a camera ray that waits: all before it are in the ring.
+OUTLINE uint path_first_round(const PathWave *w)
+{
+    global const int *queue = w->s.ints + QUEUE * TILE_SLOTS, *jobs = w->s.ints + JOB * TILE_SLOTS;
+    uint first = w->begun + (w->started == w->waiting ? 1 : 0);
+    for (uint i = GROUP_ITEM; i < w->count; i += GROUP)
+        first = min(first, (uint)jobs[queue[i]] / TILE_SLOTS);
+#if GROUP > 1
+    GROUP_BARRIER();
+    w->scratch[GROUP_ITEM] = first;
+    GROUP_BARRIER();
+    for (uint k = 0; k < GROUP; k++)
+        first = min(first, w->scratch[k]);
+    GROUP_BARRIER();
+#endif
+    return first;
+}
+
+// Takes the rounds before number `end`, which are complete, into the film.
+OUTLINE void path_film(PathWave *w, uint end)
+{
+    for (; w->done < end; w->done++) {
+        const uint place = w->done % PATH_ROUNDS;
+        const PathRound *round = &w->ring[place];
+        const State *samples = &w->pool; // where nothing waits but rays
+        global const real *from = w->s.reals + (RING_REALS + 3 * place) * TILE_SLOTS;
+        global real *to = samples->reals + RADIANCE * TILE_SLOTS;
+        for (uint i = GROUP_ITEM; i < 3 * TILE_SLOTS; i += GROUP)
+            to[i] = from[i];
+        GROUP_BARRIER();
+#if HAS_CLAMP
+        clamp_samples(samples, RADIANCE, w->clamp_limit);
+#endif
+#if HAS_FILTER_LOBES
+        weigh_samples(samples, w->params, w->quantiles, round->tile.image_left, round->tile.image_top,
+                      round->begin);
+#endif
+        film_add(samples, w->params, w->film, w->film_low, w->film_m2, &round->tile, round->begin, round->end);
+#if HAS_CLAMP
+        film_add_clamped(samples, w->params, w->film_clamped, &round->tile, round->begin, round->end);
+#endif
+        GROUP_BARRIER();
+    }
+}
+
+// One ray of every path of the wave.
+OUTLINE void path_step(PathWave *w)
+{
+    w->rays[RAYS_LANES] += (w->count + GROUP * LANES - 1) / (GROUP * LANES) * LANES;
+    intersect_closest(&w->s, w->scene, w->count);
+    GROUP_BARRIER();
+    path_shade(w);
+    GROUP_BARRIER();
+#if HAS_SHADOWS
+    intersect_shadow(&w->s, w->scene, w->count, &w->rays[RAYS_SHADOW]);
+    GROUP_BARRIER();
+#endif
+    path_advance(w);
+    path_film(w, path_first_round(w));
+}
+
+// Starts the paths of the next `count` waiting camera rays in as many free slots.
+OUTLINE void path_start(const PathWave *w, uint count)
+{
+    const State *s = &w->s, *pool = &w->pool;
+    const uint begin = w->ring[w->begun % PATH_ROUNDS].begin;
+    global const int *slots_queue = s->ints + QUEUE * TILE_SLOTS + w->count;
+    global const int *pool_queue = pool->ints + QUEUE * TILE_SLOTS + w->started;
+    const int mask = (1 << w->params->slots_log2) - 1;
+    for (uint i = GROUP_ITEM * LANES; i < count; i += GROUP * LANES) {
+        const Slots slots = slots_make(slots_queue, i, count), source = slots_make(pool_queue, i, count);
+        const vm m = slots.valid;
+        state_store3(s, RAY_ORG, &slots, state_load3(pool, RAY_ORG, &source), m);
+        state_store3(s, RAY_DIR, &slots, state_load3(pool, RAY_DIR, &source), m);
+        state_store3(s, THROUGHPUT, &slots, v3_splat(1.0f), m);
+        state_store3(s, RADIANCE, &slots, v3_splat(0.0f), m);
+        state_store(s, DENSITY, &slots, (vf)(0.0f), m);
+        state_store_int(s, SELF, &slots, (vi)(-1), m);
+#if HAS_INSTANCES
+        state_store_int(s, SELF_INSTANCE, &slots, (vi)(NO_HIT), m);
+#endif
+        state_store_int(s, DEPTH, &slots, (vi)(0), m);
+        state_store_int(s, PATH, &slots, state_load_int(pool, PATH, &source), m);
+        state_store_int(s, JOB, &slots, source.index + (vi)((int)(w->begun * TILE_SLOTS)), m);
+        state_store_int(s, SAMPLE, &slots, (source.index & mask) + (vi)((int)begin), m);
+    }
+    GROUP_BARRIER();
+}
+
+// Queues the camera rays of the next round of the group's samples; returns false where there is none, or no room for
+// its samples yet.
+static inline bool path_next_round(PathWave *w)
+{
+    constant RenderParams *params = w->params;
+    if (w->tile >= w->tiles || w->begun + 1 - w->done == PATH_ROUNDS)
+        return false;
+    const uint side = TILE_SIDE >> params->slots_log2 / 2, columns = (params->crop_width + side - 1) / side;
+    PathRound *round = &w->ring[(w->begun + 1) % PATH_ROUNDS];
+    round->tile.left = w->tile % columns * side;
+    round->tile.top = w->tile / columns * side;
+    round->tile.width = min(params->crop_width - round->tile.left, side);
+    round->tile.height = min(w->band_rows - round->tile.top, side);
+    round->tile.image_left = (int)(params->left + round->tile.left);
+    round->tile.image_top = (int)(params->top + w->band_top + round->tile.top);
+    round->begin = w->sample;
+    round->end = min(w->sample + (1u << params->slots_log2), w->sample_end);
+    w->waiting = start_samples(&w->pool, params, w->quantiles, &round->tile, round->begin, round->end, w->scratch,
+                               w->rays);
+    w->started = 0;
+    w->begun++;
+    w->sample = round->end;
+    if (w->sample >= w->sample_end) {
+        w->sample = w->sample_begin;
+        w->tile += get_num_groups(0);
+    }
+    return true;
+}
+
+// Follows all paths of the group's samples: whenever slots are free camera rays take them.
+static inline void path_trace(PathWave *w)
+{
+    path_wave_clear(w);
+    for (;;) {
+        while (w->count < TILE_SLOTS && (w->started < w->waiting || path_next_round(w))) {
+            const uint now = min(w->waiting - w->started, TILE_SLOTS - w->count);
+            path_start(w, now);
+            w->started += now;
+            w->count += now;
+        }
+        if (w->count == 0 && w->tile >= w->tiles)
+            break;
+        path_step(w);
+    }
+}
+
+#endif
