@@ -13,7 +13,7 @@
 // those of camera rays that wait for a slot, and the radiance of PATH_ROUNDS rounds of samples.
 #define PATH_ROUNDS 8
 #define PATH_SLOT_REALS(shadows) (STATE_REALS(shadows, shadows) + 1)
-#define PATH_SLOT_INTS(shadows, instances) (STATE_INTS(shadows, 0, instances, 1) + 5)
+#define PATH_SLOT_INTS(shadows, instances) (STATE_INTS(shadows, 0, instances, 1) + 4)
 #define PATH_REALS(shadows) (PATH_SLOT_REALS(shadows) + STATE_REALS(0, 0) + 3 * PATH_ROUNDS)
 #define PATH_INTS(shadows, instances) (PATH_SLOT_INTS(shadows, instances) + STATE_INTS(shadows, 0, instances, 1))
 

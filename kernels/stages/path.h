@@ -8,8 +8,12 @@
 #include "stages/path_light.h"
 #include "stages/trace.h"
 
-// Bits of FLAGS beside bit 0, a shadow ray, and FLAG_NEXT.
-#define FLAG_ENDED (1 << 29)
+// Between stages in which another work-item takes over a slot.
+#if BATCH > LANES
+#define STAGE_BARRIER() GROUP_BARRIER()
+#else
+#define STAGE_BARRIER()
+#endif
 
 // Rays of this depth and deeper go on with a probability.
 #define ROULETTE_DEPTH 4
@@ -45,14 +49,14 @@ typedef struct {
     uint *rays;
 } PathWave;
 
-// Fills the queues, in which every place must be the number of a slot, and every slot is once.
+// The queue has the slots in their order for good: paths move to the first of them.
 static inline void path_wave_clear(PathWave *w)
 {
     global int *ints = w->s.ints;
     w->begun = w->waiting = w->started = w->count = 0;
     w->done = 1;
     for (uint i = GROUP_ITEM; i < TILE_SLOTS; i += GROUP)
-        ints[QUEUE * TILE_SLOTS + i] = ints[QUEUE_NEXT * TILE_SLOTS + i] = ints[ENDED * TILE_SLOTS + i] = (int)i;
+        ints[QUEUE * TILE_SLOTS + i] = (int)i;
     GROUP_BARRIER();
 }
 
@@ -65,7 +69,7 @@ static inline vm path_survives(v3 *throughput, vi depth, vf u)
     return (u < chance) & (most > (vf)(0.0f));
 }
 
-// Puts the ray that follows the hit in flight; returns FLAG_NEXT where there is one, else FLAG_ENDED.
+// Puts the ray that follows the hit in flight; returns FLAG_NEXT where there is one.
 OUTLINE vi path_spawn(const PathWave *w, const Slots *slots, const Hit *hit, const PathParts *parts,
 #if HAS_REFLECT || HAS_TRANSMIT
                       const Scatter *scatter,
@@ -92,7 +96,7 @@ OUTLINE vi path_spawn(const PathWave *w, const Slots *slots, const Hit *hit, con
     w->rays[RAYS_REFLECTED] += popcount(vm_bits(next.m & !drawn.through));
     store_ray(s, slots, &next, depth + 1, instance, slots->valid);
     state_store(s, DENSITY, slots, drawn.density, slots->valid);
-    return next.m ? (vi)(FLAG_NEXT) : (vi)(FLAG_ENDED);
+    return next.m ? (vi)(FLAG_NEXT) : (vi)(0);
 }
 
 #if HAS_LIGHTS
@@ -147,7 +151,7 @@ OUTLINE vi path_shade_hits(const PathWave *w, const Slots *slots, vf t, v3 throu
 #endif
     const vm going = m & (depth <= most);
     if (!vm_any(going))
-        return (vi)(FLAG_ENDED);
+        return (vi)(0);
     const SamplePoint choice = sample_point(hit_random_pair(&hit.random, PAIR_CHOICE));
 #if HAS_REFLECT || HAS_TRANSMIT
     const Scatter scatter = scatter_make(&hit);
@@ -177,7 +181,7 @@ OUTLINE void path_shade(const PathWave *w)
         const vm found = slots.valid & (t < (vf)(INFINITY));
         const v3 throughput = state_load3(s, THROUGHPUT, &slots);
         v3 radiance = state_load3(s, RADIANCE, &slots);
-        vi flags = (vi)(FLAG_ENDED);
+        vi flags = (vi)(0);
 #if HAS_ENVIRONMENT
         if (!vm_all(found)) {
             const v3 sky = path_sky(w->shading, &w->settings, state_load3(s, RAY_DIR, &slots),
@@ -194,33 +198,63 @@ OUTLINE void path_shade(const PathWave *w)
     }
 }
 
-// Brings the radiance of the slots that have ended into the ring.
+// Brings the radiance of the paths that have ended into the ring.
 OUTLINE void path_finish(const State *s, uint count)
 {
-    global const int *ended = s->ints + ENDED * TILE_SLOTS;
     global real *ring = s->reals + RING_REALS * TILE_SLOTS;
     for (uint i = GROUP_ITEM * LANES; i < count; i += GROUP * LANES) {
-        const Slots slots = slots_make(ended, i, count);
+        const Slots slots = slots_make(s->ints + QUEUE * TILE_SLOTS, i, count);
+        const vm ended = slots.valid & ((state_load_int(s, FLAGS, &slots) & FLAG_NEXT) == (vi)(0));
+        if (!vm_any(ended))
+            continue;
         const vi job = state_load_int(s, JOB, &slots);
         const vi place = ((job / TILE_SLOTS) & (PATH_ROUNDS - 1)) * (3 * TILE_SLOTS) + (job & (TILE_SLOTS - 1));
         const v3 radiance = state_load3(s, RADIANCE, &slots);
-        vf_scatter(ring, place, radiance.x, slots.valid);
-        vf_scatter(ring, place + TILE_SLOTS, radiance.y, slots.valid);
-        vf_scatter(ring, place + 2 * TILE_SLOTS, radiance.z, slots.valid);
+        vf_scatter(ring, place, radiance.x, ended);
+        vf_scatter(ring, place + TILE_SLOTS, radiance.y, ended);
+        vf_scatter(ring, place + 2 * TILE_SLOTS, radiance.z, ended);
     }
 }
 
-// Keeps those of the queue that go on, in order, and the others behind them.
+// What a path takes along to its next ray.
+#define PATH_MOVED_REALS 13
+#define PATH_MOVED_INTS (5 + HAS_INSTANCES)
+constant int path_moved_reals[PATH_MOVED_REALS] = {
+    RAY_ORG, RAY_ORG + 1, RAY_ORG + 2, RAY_DIR, RAY_DIR + 1, RAY_DIR + 2, THROUGHPUT, THROUGHPUT + 1, THROUGHPUT + 2,
+    RADIANCE, RADIANCE + 1, RADIANCE + 2, DENSITY,
+};
+constant int path_moved_ints[PATH_MOVED_INTS] = {
+    SELF, DEPTH, PATH, JOB, SAMPLE,
+#if HAS_INSTANCES
+    SELF_INSTANCE,
+#endif
+};
+
+// Moves the paths that go on to the first slots, in their order: what follows each other is loaded and stored at once.
+// No slot is written before it has been read, since all move down.
 OUTLINE void path_advance(PathWave *w)
 {
     const State *s = &w->s;
-    global int *queue = s->ints + QUEUE * TILE_SLOTS;
-    global int *next = s->ints + QUEUE_NEXT * TILE_SLOTS, *ended = s->ints + ENDED * TILE_SLOTS;
-    const uint stopped = queue_compact(s, queue, w->count, FLAG_ENDED, ended, w->scratch);
-    const uint left = queue_compact(s, queue, w->count, FLAG_NEXT, next, w->scratch);
-    path_finish(s, stopped);
-    for (uint i = GROUP_ITEM; i < w->count; i += GROUP)
-        queue[i] = i < left ? next[i] : ended[i - left];
+    global const int *next = s->ints + QUEUE_NEXT * TILE_SLOTS;
+    const uint left = queue_compact(s, s->ints + QUEUE * TILE_SLOTS, w->count, FLAG_NEXT,
+                                    s->ints + QUEUE_NEXT * TILE_SLOTS, w->scratch);
+    for (uint base = 0; base < left; base += GROUP * LANES) {
+        const uint i = base + GROUP_ITEM * LANES;
+        const bool some = i < left;
+        const Slots from = slots_make(next, some ? i : 0, left), to = slots_all(some ? i : 0);
+        const bool moves = some && from.first != to.first + (from.consecutive ? 0 : TILE_SLOTS);
+        vf reals[PATH_MOVED_REALS];
+        vi ints[PATH_MOVED_INTS];
+        for (int k = 0; k < PATH_MOVED_REALS && moves; k++)
+            reals[k] = state_load(s, path_moved_reals[k], &from);
+        for (int k = 0; k < PATH_MOVED_INTS && moves; k++)
+            ints[k] = state_load_int(s, path_moved_ints[k], &from);
+        GROUP_BARRIER();
+        for (int k = 0; k < PATH_MOVED_REALS && moves; k++)
+            state_store(s, path_moved_reals[k], &to, reals[k], to.valid);
+        for (int k = 0; k < PATH_MOVED_INTS && moves; k++)
+            state_store_int(s, path_moved_ints[k], &to, ints[k], to.valid);
+    }
     w->count = left;
     GROUP_BARRIER();
 }
@@ -228,17 +262,15 @@ OUTLINE void path_advance(PathWave *w)
 // The first round that has a path in flight or a camera ray that waits: all before it are in the ring.
 OUTLINE uint path_first_round(const PathWave *w)
 {
-    global const int *queue = w->s.ints + QUEUE * TILE_SLOTS, *jobs = w->s.ints + JOB * TILE_SLOTS;
+    global const int *jobs = w->s.ints + JOB * TILE_SLOTS;
     uint first = w->begun + (w->started == w->waiting ? 1 : 0);
     for (uint i = GROUP_ITEM; i < w->count; i += GROUP)
-        first = min(first, (uint)jobs[queue[i]] / TILE_SLOTS);
+        first = min(first, (uint)jobs[i] / TILE_SLOTS);
 #if GROUP > 1
-    GROUP_BARRIER();
     w->scratch[GROUP_ITEM] = first;
     GROUP_BARRIER();
     for (uint k = 0; k < GROUP; k++)
         first = min(first, w->scratch[k]);
-    GROUP_BARRIER();
 #endif
     return first;
 }
@@ -275,19 +307,20 @@ OUTLINE void path_step(PathWave *w)
 {
     w->rays[RAYS_LANES] += (w->count + GROUP * LANES - 1) / (GROUP * LANES) * LANES;
     intersect_closest(&w->s, w->scene, w->count);
-    GROUP_BARRIER();
+    STAGE_BARRIER();
     path_shade(w);
-    GROUP_BARRIER();
+    STAGE_BARRIER();
 #if HAS_SHADOWS
     intersect_shadow(&w->s, w->scene, w->count, &w->rays[RAYS_SHADOW]);
-    GROUP_BARRIER();
+    STAGE_BARRIER();
 #endif
+    path_finish(&w->s, w->count);
     path_advance(w);
     path_film(w, path_first_round(w));
 }
 
 // Starts the paths of the next `count` waiting camera rays in as many free slots.
-OUTLINE void path_start(const PathWave *w, uint count)
+OUTLINE void path_start(PathWave *w, uint count)
 {
     const State *s = &w->s, *pool = &w->pool;
     const uint begin = w->ring[w->begun % PATH_ROUNDS].begin;
@@ -311,18 +344,23 @@ OUTLINE void path_start(const PathWave *w, uint count)
         state_store_int(s, JOB, &slots, source.index + (vi)((int)(w->begun * TILE_SLOTS)), m);
         state_store_int(s, SAMPLE, &slots, (source.index & mask) + (vi)((int)begin), m);
     }
+    w->started += count;
+    w->count += count;
     GROUP_BARRIER();
 }
 
-// Queues the camera rays of the next round of the group's samples; returns false where there is none, or no room for
-// its samples yet.
-static inline bool path_next_round(PathWave *w)
+// Whether camera rays of a further round are wanted: no others wait, there is one, and room for its samples.
+static inline bool path_wants_round(const PathWave *w)
+{
+    return w->started == w->waiting && w->tile < w->tiles && w->begun + 1 - w->done < PATH_ROUNDS;
+}
+
+// Queues the camera rays of the next round of the group's samples.
+static inline void path_next_round(PathWave *w)
 {
     constant RenderParams *params = w->params;
-    if (w->tile >= w->tiles || w->begun + 1 - w->done == PATH_ROUNDS)
-        return false;
     const uint side = TILE_SIDE >> params->slots_log2 / 2, columns = (params->crop_width + side - 1) / side;
-    PathRound *round = &w->ring[(w->begun + 1) % PATH_ROUNDS];
+    PathRound *round = &w->ring[++w->begun % PATH_ROUNDS];
     round->tile.left = w->tile % columns * side;
     round->tile.top = w->tile / columns * side;
     round->tile.width = min(params->crop_width - round->tile.left, side);
@@ -334,30 +372,24 @@ static inline bool path_next_round(PathWave *w)
     w->waiting = start_samples(&w->pool, params, w->quantiles, &round->tile, round->begin, round->end, w->scratch,
                                w->rays);
     w->started = 0;
-    w->begun++;
-    w->sample = round->end;
-    if (w->sample >= w->sample_end) {
-        w->sample = w->sample_begin;
-        w->tile += get_num_groups(0);
-    }
-    return true;
+    const bool last = round->end >= w->sample_end;
+    w->sample = last ? w->sample_begin : round->end;
+    w->tile += last ? get_num_groups(0) : 0;
 }
 
-// Follows all paths of the group's samples: whenever slots are free camera rays take them.
+// Follows all paths of the group's samples: whenever slots are free camera rays take them. Barriers stand in loops,
+// never behind conditions, which would let PoCL copy all that comes after them.
 static inline void path_trace(PathWave *w)
 {
     path_wave_clear(w);
-    for (;;) {
-        while (w->count < TILE_SLOTS && (w->started < w->waiting || path_next_round(w))) {
-            const uint now = min(w->waiting - w->started, TILE_SLOTS - w->count);
-            path_start(w, now);
-            w->started += now;
-            w->count += now;
-        }
-        if (w->count == 0 && w->tile >= w->tiles)
-            break;
+    do {
+        do {
+            while (path_wants_round(w))
+                path_next_round(w);
+            path_start(w, min(w->waiting - w->started, TILE_SLOTS - w->count));
+        } while (w->count < TILE_SLOTS && path_wants_round(w));
         path_step(w);
-    }
+    } while (w->count > 0 || w->started < w->waiting || w->tile < w->tiles);
 }
 
 #endif

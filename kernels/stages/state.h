@@ -59,8 +59,7 @@ enum {
     RING_REALS = POOL_REALS + RADIANCE_END // 3 for each round
 };
 enum {
-    ENDED = INT_FIELDS, // slots whose path has ended, compacted
-    JOB,                // number of the sample among those of the launch that the group has begun
+    JOB = INT_FIELDS,   // number of the sample among those of the launch that the group has begun
     SAMPLE,             // its number in the pixel
     SHADOW_LEFT_OUT,    // as BatchHits.left_out, planes_out
     SHADOW_PLANES,

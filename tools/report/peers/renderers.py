@@ -1,4 +1,5 @@
-"""clrt, Mitsuba 3 and Cycles behind one call: render(spp, seed, out) gives the seconds that it took.
+"""clrt, Mitsuba 3 and Cycles behind one call: render(spp, seed, out) gives the seconds that it took. Where they do not matter,
+timed=False spares what is done for them alone.
 
 Each render is a process of its own. `render_s` are the seconds of rendering alone: those of clrt's stage `trace`, of
 Mitsuba's second call of mi.render (the first compiles), of Cycles without its synchronization. `wall_s` is all of the
@@ -56,7 +57,7 @@ class Clrt:
         child = subprocess.run([self.program, "--check", self.path], capture_output=True, text=True)
         return None if child.returncode == 0 else child.stderr.strip() or "clrt --check fails"
 
-    def render(self, spp, seed, out, extra=()):
+    def render(self, spp, seed, out, timed=True, extra=()):
         stats = os.path.join(self.folder, "clrt.json")
         _, _, wall = run([self.program, "-q", "--samples", str(spp), "--seed", str(seed), "--stats=" + stats,
                           *self.options, *extra, self.path, out], self.name)
@@ -99,7 +100,9 @@ class Mitsuba:
         images.write_pfm(self.sky, images.Image(given.width, len(rows), values))
         return self.sky
 
-    def render(self, spp, seed, out, warm=1):
+    def render(self, spp, seed, out, timed=True):
+        # Nothing of the scalar variants is compiled: their first render is as good as a second.
+        warm = 1 if timed and not self.variant.startswith("scalar") else 0
         job = {"scene": self.scene, "variant": self.variant, "models": self.models, "sampler": self.sampler, "spp": spp,
                "seed": seed, "environment": self.prepared_sky(), "out": out, "warm": warm}
         path = write_json(os.path.join(self.folder, "mitsuba_job.json"), job)
@@ -119,7 +122,7 @@ class Cycles:
             return f"no program {self.program}"
         return None if os.name == "posix" else "not tried on this system"
 
-    def render(self, spp, seed, out):
+    def render(self, spp, seed, out, timed=True):
         environment = self.scene["environment"]
         job = {"scene": self.scene, "spp": spp, "seed": seed, "environment": environment and environment["file"],
                "out": out, "exr": os.path.join(self.folder, "cycles.exr")}

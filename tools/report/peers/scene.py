@@ -101,7 +101,8 @@ def material(kind, properties):
     diffuse = color(given.get("diffuse", ["0.8"]))
     if "transmit" not in given and "reflect" not in given:
         return {"kind": "diffuse", "color": diffuse}
-    if any(diffuse) or color(given["transmit"]) != [1, 1, 1] or color(given["reflect"]) != [1, 1, 1] or given["fresnel"] != ["on"]:
+    clear = all(given.get(name) == [word] for name, word in (("reflect", "1"), ("transmit", "1"), ("fresnel", "on")))
+    if any(diffuse) or not clear:
         raise SceneError("phong that is neither matte nor clear glass")
     return {"kind": "glass", "ior": float(given.get("ior", ["1.5"])[0])}
 
@@ -161,33 +162,39 @@ def environment(properties, folder):
 
 
 def read(path):
-    """One JSON-ready object: size, samples, camera, max_depth, background, environment, materials, lights, shapes."""
+    """One JSON-ready object: size, camera, max_depth, background, environment, materials, lights, shapes."""
     scene = {"size": [800, 600], "max_depth": 5, "background": [0, 0, 0], "environment": None,
              "camera": None, "materials": {}, "lights": [], "shapes": []}
     with open(path, encoding="utf-8") as text:
-        for head, properties in statements(text.read()):
-            given = dict(properties)
-            if head[0] == "image":
-                known(given, ("size", "samples", "filter"), "image")
-                if given.get("filter", ["box"]) != ["box"]:
-                    raise SceneError("a filter other than box")
-                scene["size"] = [int(v) for v in given["size"]]
-                scene["samples"] = int(given.get("samples", ["1"])[0])
-            elif head[0] == "camera":
-                known(given, ("position", "look_at", "up", "fov"), "camera")
-                scene["camera"] = {"position": numbers(given["position"]), "look_at": numbers(given["look_at"]),
-                                   "up": numbers(given.get("up", ["0", "1", "0"])), "fov": float(given["fov"][0])}
-            elif head[0] == "render":
-                known(given, ("integrator", "max_depth"), "render")
-                scene["max_depth"] = int(given.get("max_depth", ["5"])[0])
-            elif head[0] == "background":
-                scene["background"] = color(head[1:])
-            elif head[0] == "environment":
-                scene["environment"] = environment(properties, os.path.dirname(os.path.abspath(path)))
-            elif head[0] == "material":
-                scene["materials"][head[1]] = material(head[2], properties)
-            elif head[0] == "light":
-                scene["lights"].append(light(head[1], properties))
-            elif head[0] not in ("output", "ambient"):
-                scene["shapes"].append(shape(head[0], properties))
+        try:
+            for head, properties in statements(text.read()):
+                take(scene, head, properties, os.path.dirname(os.path.abspath(path)))
+        except (SceneError, KeyError, ValueError) as problem:
+            raise SceneError(f"{path}: not known to this comparison: {problem}") from None
     return scene
+
+
+def take(scene, head, properties, folder):
+    given = dict(properties)
+    if head[0] == "image":
+        known(given, ("size", "samples", "filter"), "image")
+        if given.get("filter", ["box"]) != ["box"]:
+            raise SceneError("a filter other than box")
+        scene["size"] = [int(v) for v in given["size"]]
+    elif head[0] == "camera":
+        known(given, ("position", "look_at", "up", "fov"), "camera")
+        scene["camera"] = {"position": numbers(given["position"]), "look_at": numbers(given["look_at"]),
+                           "up": numbers(given.get("up", ["0", "1", "0"])), "fov": float(given["fov"][0])}
+    elif head[0] == "render":
+        known(given, ("integrator", "max_depth"), "render")
+        scene["max_depth"] = int(given.get("max_depth", ["5"])[0])
+    elif head[0] == "background":
+        scene["background"] = color(head[1:])
+    elif head[0] == "environment":
+        scene["environment"] = environment(properties, folder)
+    elif head[0] == "material":
+        scene["materials"][head[1]] = material(head[2], properties)
+    elif head[0] == "light":
+        scene["lights"].append(light(head[1], properties))
+    elif head[0] not in ("output", "ambient"):
+        scene["shapes"].append(shape(head[0], properties))
