@@ -16,8 +16,8 @@
 #include "layout/layout.h"
 #include "output/output.h"
 #include "render/render.h"
+#include "scene/effect.h"
 #include "scene/parse.h"
-#include "scene/support.h"
 #include "selftest/trust.h"
 
 // What lives as long as the run.
@@ -88,7 +88,7 @@ static bool load_scene(Picture *picture, Error *error)
     if (sound && !options_override(options, picture->scene, error))
         return false;
     if (sound)
-        scene_check_support(picture->scene, picture->diagnostics); // more samples may need what is not there
+        scene_check_effect(picture->scene, picture->diagnostics);
     picture->stats.parse_seconds = clock_seconds() - start;
     return load_assets(picture, error) && judge_scene(picture, error);
 }

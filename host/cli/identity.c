@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+static const char *const SAMPLINGS[] = {"both", "lights", "surfaces"};
 static const char *const TONE_MAPS[] = {"none", "reinhard", "reinhard_extended", "aces", "hable"};
 
 const char *identity_base_name(const char *path)
@@ -56,6 +57,10 @@ static void add_options(IdentityTexts *texts, const Identity *identity)
     if (scene->environment.present)
         write_text(texts, " --environment-lighting %s",
                    scene->render.environment_lighting == ENVIRONMENT_PREFILTERED ? "prefiltered" : "sampled");
+    const bool path = scene->render.integrator == INTEGRATOR_PATH;
+    write_text(texts, " --integrator %s", path ? "path" : "whitted");
+    if (path)
+        write_text(texts, " --sampling %s", SAMPLINGS[scene->render.light_sampling]);
     if (identity->clamp > 0)
         write_text(texts, " --clamp %.9g", (f64)identity->clamp);
     if (identity->cropped)

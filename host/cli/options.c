@@ -198,6 +198,9 @@ bool options_override(const Options *options, Scene *scene, Error *error)
         scene->render.max_depth = options->depth;
     if (options->environment_lighting_given)
         scene->render.environment_lighting = options->environment_lighting;
+    if (options->integrator_given)
+        scene->render.integrator = options->integrator;
+    scene->render.light_sampling = options->light_sampling;
     if (options->exposure_given) {
         scene->output.exposure = options->exposure;
         scene->output.exposure_given = true;

@@ -34,6 +34,9 @@ typedef struct Options {
     u32 depth;                        // 0..64
     bool environment_lighting_given;
     EnvironmentLighting environment_lighting;
+    bool integrator_given;
+    Integrator integrator;
+    LightSampling light_sampling;     // LIGHT_SAMPLING_BOTH: also where it is not given
     f32 clamp;                        // radiance, above 0; 0: not given
     u32 crop_x, crop_y;               // 0..65535
     u32 crop_width, crop_height;      // 1..65536

@@ -1,17 +1,25 @@
 #include "cli/stats.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <string.h>
 #include <sys/resource.h>
 
 #include "cli/identity_json.h"
 #include "cli/json_file.h"
+#include "shared/state_fields.h"
 
 static const f64 MIB = 1024.0 * 1024.0;
 
-// In the order of RenderStats.rays.
-static const char *const RAY_KINDS[] = {"camera", "shadow", "mirrored", "transmitted"};
-enum { RAY_KIND_COUNT = 4 };
+// In the order of RenderStats.rays. Paths go where mirrors, highlights and matte surfaces send them alike.
+enum { RAY_KIND_COUNT = RAYS_KINDS };
+static const char *const RAY_KINDS[RAY_KIND_COUNT] = {"camera", "shadow", "mirrored", "transmitted"};
+static const char *const PATH_RAY_KINDS[RAY_KIND_COUNT] = {"camera", "shadow", "scattered", "transmitted"};
+
+static const char *const *ray_kinds(const RenderStats *render)
+{
+    return features_have(render->features, FEATURE_PATH) ? PATH_RAY_KINDS : RAY_KINDS;
+}
 
 u64 stats_host_bytes_peak(void)
 {
@@ -25,6 +33,13 @@ static u64 ray_count(const RenderStats *render)
     for (u32 i = 0; i < RAY_KIND_COUNT; i++)
         count += render->rays[i];
     return count;
+}
+
+// Share of the lanes of waves that had no path; NAN where there are no waves.
+static f64 idle_lanes(const RenderStats *render)
+{
+    const u64 paths = ray_count(render) - render->rays[RAYS_SHADOW];
+    return render->rays[RAYS_LANES] > 0 ? 1 - (f64)paths / (f64)render->rays[RAYS_LANES] : NAN;
 }
 
 static f64 rays_a_second(const RenderStats *render)
@@ -43,7 +58,9 @@ void stats_print(const RunStats *stats, FILE *stream)
     fprintf(stream, "rays      %llu, %.2f M/s:", (unsigned long long)ray_count(render),
             rays_a_second(render) * 1e-6);
     for (u32 i = 0; i < RAY_KIND_COUNT; i++)
-        fprintf(stream, "%s %s %llu", i ? "," : "", RAY_KINDS[i], (unsigned long long)render->rays[i]);
+        fprintf(stream, "%s %s %llu", i ? "," : "", ray_kinds(render)[i], (unsigned long long)render->rays[i]);
+    if (render->rays[RAYS_LANES] > 0)
+        fprintf(stream, "; idle lanes %.2f %%", 100 * idle_lanes(render));
     fprintf(stream, "\nmemory    device %.1f MiB: scene %.1f, state %.1f, film %.1f; host %.1f MiB\n",
             (f64)stats->device_bytes_peak / MIB, (f64)render->scene_bytes / MIB,
             (f64)render->state_bytes / MIB, (f64)render->film_bytes / MIB,
@@ -61,7 +78,7 @@ static json_t *rays_to_json(const RenderStats *render)
 {
     json_t *rays = json_object();
     for (u32 i = 0; i < RAY_KIND_COUNT; i++)
-        json_object_set_new(rays, RAY_KINDS[i], json_integer((json_int_t)render->rays[i]));
+        json_object_set_new(rays, ray_kinds(render)[i], json_integer((json_int_t)render->rays[i]));
     return rays;
 }
 
@@ -95,10 +112,12 @@ static json_t *to_json(const RunStats *stats)
 {
     const RenderStats *render = stats->render;
     json_t *name = json_string(stats->device_name); // NULL where it is no UTF-8
-    return json_pack("{s:i, s:i, s:o?, s:o, s:o, s:o, s:f, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "width", (int)stats->width,
-                     "height", (int)stats->height, "device", name, "seconds", seconds_to_json(stats), "bytes",
-                     bytes_to_json(stats), "rays", rays_to_json(render), "rays_per_second",
-                     rays_a_second(render), "launches", (int)render->launches, "band_rows",
+    const f64 idle = idle_lanes(render);
+    return json_pack("{s:i, s:i, s:o?, s:o, s:o, s:o, s:f, s:o, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "width",
+                     (int)stats->width, "height", (int)stats->height, "device", name, "seconds",
+                     seconds_to_json(stats), "bytes", bytes_to_json(stats), "rays", rays_to_json(render),
+                     "rays_per_second", rays_a_second(render), "idle_lanes",
+                     isnan(idle) ? json_null() : json_real(idle), "launches", (int)render->launches, "band_rows",
                      (int)render->band_rows, "tiles_in_flight", (int)render->groups, "features",
                      features_to_json(render->features), "run",
                      identity_json(stats->identity, render->program_hash), "budget",

@@ -117,6 +117,31 @@ static const char *take_environment_lighting(Options *options, const char *value
     return NULL;
 }
 
+static const char *take_integrator(Options *options, const char *value)
+{
+    const bool path = strcmp(value, "path") == 0;
+    if (!path && strcmp(value, "whitted") != 0)
+        return "whitted or path";
+    options->integrator_given = true;
+    options->integrator = path ? INTEGRATOR_PATH : INTEGRATOR_WHITTED;
+    return NULL;
+}
+
+static const char *take_sampling(Options *options, const char *value)
+{
+    static const char *const NAMES[] = {
+        [LIGHT_SAMPLING_BOTH] = "both",
+        [LIGHT_SAMPLING_LIGHTS] = "lights",
+        [LIGHT_SAMPLING_SURFACES] = "surfaces",
+    };
+    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++)
+        if (strcmp(value, NAMES[i]) == 0) {
+            options->light_sampling = (LightSampling)i;
+            return NULL;
+        }
+    return "both, lights or surfaces";
+}
+
 static const char *take_clamp(Options *options, const char *value)
 {
     f64 limit;
@@ -268,6 +293,9 @@ const Option OPTIONS[] = {
     {0, "depth", VALUE_REQUIRED, "N", GROUP_IMAGE, "largest depth of a ray, 0 to 64", take_depth},
     {0, "environment-lighting", VALUE_REQUIRED, "HOW", GROUP_IMAGE,
      "light of the environment on pbr materials: sampled or prefiltered", take_environment_lighting},
+    {0, "integrator", VALUE_REQUIRED, "NAME", GROUP_IMAGE, "whitted or path", take_integrator},
+    {0, "sampling", VALUE_REQUIRED, "HOW", GROUP_IMAGE,
+     "where paths look for area lights and the sky: both, lights or surfaces [both]", take_sampling},
     {0, "clamp", VALUE_REQUIRED, "X", GROUP_IMAGE,
      "limit of the brightest channel of each sample: fewer fireflies, biased [none]", take_clamp},
     {0, "crop", VALUE_REQUIRED, "X,Y,W,H", GROUP_IMAGE, "only these pixels, as an image of W x H [all]",

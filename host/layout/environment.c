@@ -122,6 +122,27 @@ static bool add_tables(Layout *layout, Error *error)
     return enough || error_set(error, ERROR_MEMORY, "no memory for the tables of the environment");
 }
 
+// Guides into the rows of columns.
+static bool add_guides(Layout *layout, Error *error)
+{
+    const u32 width = layout->environment->width, rows = layout->environment->height + 1;
+    layout->environment_guide_count = rows * (ENVIRONMENT_GUIDES + 1);
+    layout->environment_guides = page_alloc(layout->environment_guide_count * sizeof *layout->environment_guides);
+    if (!layout->environment_guides)
+        return error_set(error, ERROR_MEMORY, "no memory for the tables of the environment");
+    for (u32 row = 0; row < rows; row++) {
+        const u32 *cdf = layout->environment_cdf + rows + (u64)row * width;
+        i32 *guides = layout->environment_guides + (u64)row * (ENVIRONMENT_GUIDES + 1);
+        u32 column = 0;
+        for (u64 k = 0; k <= ENVIRONMENT_GUIDES; k++) {
+            while (column + 1 < width && cdf[column + 1] <= k << (32 - ENVIRONMENT_GUIDES_LOG2))
+                column++;
+            guides[k] = (i32)column;
+        }
+    }
+    return true;
+}
+
 static bool add_levels(Layout *layout, Error *error)
 {
     layout->environment_level_count = prefilter_plan(layout->environment);
@@ -143,7 +164,7 @@ bool environment_add(Layout *layout, const Scene *scene, bool lit, Error *error)
     if (!bright(&sky))
         return true;
     const u32 width = sky.width, height = sky.height;
-    const u64 count = 3 * (u64)width * height;
+    const u64 count = 3 * (u64)width * height + 1; // kernels load four numbers for three
     if (count > NUMBERS_MAX)
         return error_set(error, ERROR_MEMORY, "the environment has %llu texels, too many",
                          (unsigned long long)count / 3);
@@ -163,7 +184,8 @@ bool environment_add(Layout *layout, const Scene *scene, bool lit, Error *error)
     record->turn = (f32)(turn - floor(turn));
     record->scale = (f32)fmin(1 / fmax(largest, 1e-30), 1e30);
     if (largest > 0 && lit)
-        return prefiltered ? add_levels(layout, error) : add_tables(layout, error);
+        return prefiltered ? add_levels(layout, error)
+                           : add_tables(layout, error) && (!layout->path.on || add_guides(layout, error));
     if (!(largest > 0)) {
         page_free(layout->environment, sizeof *layout->environment);
         page_free(layout->environment_texels, count * sizeof *layout->environment_texels);

@@ -278,6 +278,8 @@ void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS])
         { "environment_cdf", l->environment_cdf, l->environment_cdf_count * sizeof *l->environment_cdf },
         { "environment_edges", l->environment_edges,
           l->environment_edge_count * sizeof *l->environment_edges },
+        { "environment_guides", l->environment_guides,
+          l->environment_guide_count * sizeof *l->environment_guides },
         { "environment_levels", l->environment_levels,
           l->environment_level_count * sizeof *l->environment_levels },
         { "quantiles", l->quantiles, l->quantile_count * sizeof *l->quantiles },

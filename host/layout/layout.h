@@ -68,6 +68,8 @@ typedef struct Layout {
     u64 environment_cdf_count;
     f32 *environment_edges;
     u32 environment_edge_count;
+    i32 *environment_guides;        // for paths
+    u32 environment_guide_count;
     f32 *environment_levels;        // where it is prefiltered
     u64 environment_level_count;
     f32 *quantiles; // of the pixel filter, where it needs a table
@@ -83,7 +85,7 @@ typedef struct LayoutArray {
     u64 bytes;
 } LayoutArray;
 
-#define LAYOUT_ARRAYS 21
+#define LAYOUT_ARRAYS 22
 void layout_arrays(const Layout *layout, LayoutArray arrays[LAYOUT_ARRAYS]);
 
 // Shapes that are meshes must have theirs, one of scene->meshes. Fails with ERROR_MEMORY, and with the place

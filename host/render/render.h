@@ -24,7 +24,7 @@ typedef struct RenderStats {
     u64 program_hash;    // of the program's text and options (base/hash.h)
     f64 compile_seconds; // building the program, and a first launch of nothing, which generates the code
     f64 trace_seconds;   // all launches
-    u64 rays[5];         // camera, shadow, mirrored, transmitted; lanes of waves of paths
+    u64 rays[5];         // RAYS_X of shared/state_fields.h; a path that is not transmitted counts as mirrored
     u64 scene_bytes;     // on the device
     u64 state_bytes;
     u64 film_bytes;

@@ -8,7 +8,6 @@
 #include "base/text.h"
 #include "scene/material.h"
 #include "scene/statement.h"
-#include "scene/support.h"
 
 // ---- files ----------------------------------------------------------------------------------
 
@@ -181,8 +180,6 @@ static Scene *parse(const char *name, const FileContent *content, bool known, Ar
         error_set(error, ERROR_MEMORY, "%s: out of memory", name);
         return NULL;
     }
-    if (diagnostics_error_count(diagnostics) == 0)
-        scene_check_support(parser.scene, diagnostics);
     return parser.scene;
 }
 

@@ -1,6 +1,6 @@
 // scene_parse: text to Scene. All errors of the text are collected with their places.
 // A byte 0 is an error that ends its file; bytes that are not UTF-8, in comments too, are an error once a
-// file, and the rest is read. A scene without errors is asked for what is not supported yet (support.h).
+// file, and the rest is read.
 #ifndef CLRT_SCENE_PARSE_H
 #define CLRT_SCENE_PARSE_H
 

@@ -54,7 +54,7 @@ typedef struct RenderSettings {
     EnvironmentLighting environment_lighting;
     LightSampling light_sampling; // not of the language; BOTH unless somebody says otherwise
     bool shadows;
-    SourcePos integrator_at, ambient_occlusion_at;
+    SourcePos integrator_at, ambient_occlusion_at, environment_lighting_at; // line 0: not written
 } RenderSettings;
 
 typedef enum ToneMap {

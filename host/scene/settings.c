@@ -94,7 +94,8 @@ static const Property RENDER_PROPERTIES[] = {
      .position = offsetof(RenderSettings, ambient_occlusion_at)},
     {"environment_samples", VALUE_WHOLE, AT(RenderSettings, environment_samples), RANGE_SAMPLES,
      .count = 1},
-    {"environment_lighting", VALUE_WORD, AT(RenderSettings, environment_lighting), .words = LIGHTINGS},
+    {"environment_lighting", VALUE_WORD, AT(RenderSettings, environment_lighting), .words = LIGHTINGS,
+     .position = offsetof(RenderSettings, environment_lighting_at)},
     {"shadows", VALUE_SWITCH, AT(RenderSettings, shadows)},
 };
 

@@ -24,7 +24,8 @@ static FeatureSet features_of_probe(void)
 {
     static const Feature WITHOUT[] = {FEATURE_TRIANGLE_EXTRA, FEATURE_MESH_NORMALS, FEATURE_MESH_UVS, FEATURE_TERMINATOR,
                                       FEATURE_EMISSION,       FEATURE_AMBIENT,      FEATURE_BACKGROUND,
-                                      FEATURE_BRANCHING,      FEATURE_ORTHOGRAPHIC, FEATURE_SAMPLES};
+                                      FEATURE_BRANCHING,      FEATURE_ORTHOGRAPHIC, FEATURE_SAMPLES,
+                                      FEATURE_PATH,           FEATURE_MANY_LIGHTS};
     FeatureSet set = ((FeatureSet)1 << FEATURE_COUNT) - 1;
     for (size_t i = 0; i < sizeof WITHOUT / sizeof WITHOUT[0]; i++)
         set &= ~feature_bit(WITHOUT[i]);

@@ -1,4 +1,4 @@
-// What a feature builds on is there with it, so that any set of features compiles.
+// What a feature builds on is there with it and what it shuts out is not, so that any set of features compiles.
 #ifndef CLRT_KERNELS_BASE_FEATURES_H
 #define CLRT_KERNELS_BASE_FEATURES_H
 
@@ -49,6 +49,27 @@
 #define HAS_TRIANGLE 1
 #endif
 
+#if HAS_MANY_LIGHTS && !HAS_PATH
+#undef HAS_PATH
+#define HAS_PATH 1
+#endif
+
+// A path follows one ray from a hit, so that none is parked, and looks for the light of the environment by rays.
+#if HAS_PATH && HAS_BRANCHING
+#undef HAS_BRANCHING
+#define HAS_BRANCHING 0
+#endif
+
+#if HAS_PATH && HAS_PREFILTERED
+#undef HAS_PREFILTERED
+#define HAS_PREFILTERED 0
+#endif
+
+#if HAS_PATH && HAS_SPECULAR && !HAS_PHONG && !HAS_BLINN
+#undef HAS_PHONG
+#define HAS_PHONG 1
+#endif
+
 #define HAS_AREA_LIGHTS (HAS_SPHERE_LIGHT || HAS_RECTANGLE_LIGHT)
 #define HAS_DIRECT_LIGHTS (HAS_POINT || HAS_DIRECTIONAL || HAS_SPOT || HAS_AREA_LIGHTS)
 
@@ -60,11 +81,6 @@
 #if (HAS_ENVIRONMENT_LIGHT || HAS_PREFILTERED) && !HAS_PBR && !HAS_PATH
 #undef HAS_PBR
 #define HAS_PBR 1
-#endif
-
-#if HAS_MANY_LIGHTS && !HAS_PATH
-#undef HAS_PATH
-#define HAS_PATH 1
 #endif
 
 #if HAS_PREFILTERED && !HAS_SURFACES

@@ -3,6 +3,9 @@
 #define CLRT_KERNELS_BASE_TABLE_H
 
 #include "base/vec.h"
+#if HAS_PATH
+#include "base/gather4.h"
+#endif
 
 typedef struct {
     global const f32 *base;
@@ -35,9 +38,33 @@ static inline vi row_int(const Row *row, int k)
     return row->uniform ? (vi)(base[row->first + k]) : vi_gather(base, row->offset + k);
 }
 
+#if HAS_PATH
+// Number k + 3 must be there, too.
+static inline v3 row_real3(const Row *row, int k)
+{
+    if (row->uniform)
+        return v3_make((vf)(row->base[row->first + k]), (vf)(row->base[row->first + k + 1]),
+                       (vf)(row->base[row->first + k + 2]));
+    const Gather4 four = gather4(row->base, row->offset + k);
+    return v3_make(four.x, four.y, four.z);
+}
+
+static inline Gather4 row_real4(const Row *row, int k)
+{
+    Gather4 four;
+    if (!row->uniform)
+        return gather4(row->base, row->offset + k);
+    four.x = (vf)(row->base[row->first + k]);
+    four.y = (vf)(row->base[row->first + k + 1]);
+    four.z = (vf)(row->base[row->first + k + 2]);
+    four.w = (vf)(row->base[row->first + k + 3]);
+    return four;
+}
+#else
 static inline v3 row_real3(const Row *row, int k)
 {
     return v3_make(row_real(row, k), row_real(row, k + 1), row_real(row, k + 2));
 }
+#endif
 
 #endif

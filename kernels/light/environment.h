@@ -3,6 +3,9 @@
 #define CLRT_KERNELS_LIGHT_ENVIRONMENT_H
 
 #include "base/frame.h"
+#if HAS_PATH
+#include "base/gather4.h"
+#endif
 #include "base/math.h"
 #include "base/offset.h"
 #include "base/sampling.h"
@@ -16,6 +19,9 @@ typedef struct {
     global const uint *cdf;
     // Half of 1 - cosine of the polar angle where rows of cells begin, and where the last ends.
     global const f32 *edges;
+#if HAS_PATH
+    global const int *guides; // shared/environment.h
+#endif
 #endif
 #if HAS_PREFILTERED
     global const f32 *levels;
@@ -28,10 +34,20 @@ typedef struct {
     vf right, below;
 } MapPlace;
 
+#if HAS_PATH
+// p has one number more than it needs.
+static inline v3 v3_gather(global const f32 *p, vi index)
+{
+    const Gather4 four = gather4(p, index);
+    return v3_make(four.x, four.y, four.z);
+}
+#else
 static inline v3 v3_gather(global const f32 *p, vi index)
 {
     return v3_make(vf_gather(p, index), vf_gather(p, index + 1), vf_gather(p, index + 2));
 }
+
+#endif
 
 static inline v3 v3_lerp(v3 a, v3 b, vf t) { return v3_fma(v3_sub(b, a), t, a); }
 
@@ -153,9 +169,21 @@ typedef struct {
 } Drawn;
 
 // Inverts `count` increasing numbers of the table from `first` on, the first of them 0.
-OUTLINE Drawn draw_index(global const uint *table, vi first, uint count, vu number)
+OUTLINE Drawn draw_index(global const uint *table, vi first, uint count,
+#if HAS_PATH
+                         vi low, vi high, // between them is the index
+#endif
+                         vu number)
 {
     Drawn drawn;
+#if HAS_PATH
+    while (vm_any(high - low > (vi)(1))) {
+        const vi middle = (low + high) >> 1;
+        const vm reached = number >= VU_FROM_VI(vi_gather((global const int *)table, first + middle));
+        low = reached ? middle : low;
+        high = reached ? high : middle;
+    }
+#else
     uint step = 1;
     while (step < count)
         step *= 2;
@@ -168,6 +196,7 @@ OUTLINE Drawn draw_index(global const uint *table, vi first, uint count, vu numb
         const vm reached = within & (number >= value);
         low = reached ? middle : low;
     }
+#endif
     const vm last = low + 1 >= (vi)((int)count);
     const vi begin = vi_gather((global const int *)table, first + low);
     const vi end = last ? (vi)(0) : vi_gather((global const int *)table, first + (last ? (vi)(0) : low + 1));
@@ -191,9 +220,17 @@ OUTLINE EnvironmentSample environment_sample(const Environment *environment, Sam
     EnvironmentSample sample;
     global const EnvironmentRecord *record = environment->record;
     const int width = (int)record->width, height = (int)record->height;
+#if HAS_PATH
+    const Drawn row = draw_index(environment->cdf, (vi)(0), record->height + 1, (vi)(0), (vi)(height + 1), bits.y);
+    const vi step = row.index * (ENVIRONMENT_GUIDES + 1) + VI_FROM_VU(bits.x >> (32 - ENVIRONMENT_GUIDES_LOG2));
+    const Drawn column = draw_index(environment->cdf, row.index * width + (height + 1), record->width,
+                                    vi_gather(environment->guides, step),
+                                    vi_gather(environment->guides, step + 1) + 1, bits.x);
+#else
     const Drawn row = draw_index(environment->cdf, (vi)(0), record->height + 1, bits.y);
     const Drawn column =
         draw_index(environment->cdf, row.index * width + (height + 1), record->width, bits.x);
+#endif
     MapPlace place;
     place.column = column.index;
     place.row = row.index;

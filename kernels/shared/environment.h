@@ -11,6 +11,11 @@
 
 #include "shared/types.h"
 
+// For paths, which look for many directions, each row of columns has guides: entry k of ENVIRONMENT_GUIDES + 1 is the
+// column that k / ENVIRONMENT_GUIDES falls on, so that the search stays within a cache line or two.
+#define ENVIRONMENT_GUIDES_LOG2 6
+#define ENVIRONMENT_GUIDES (1 << ENVIRONMENT_GUIDES_LOG2)
+
 // Prefiltered maps, whose first and last rows are at the poles: those of lobes whose width (roughness
 // squared) is 2^(k + 1 - PREFILTER_LOBES), and one of irradiance over pi.
 #define PREFILTER_LOBES 7

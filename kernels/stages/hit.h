@@ -7,6 +7,17 @@
 static inline PrimitiveLanes primitive_gather(const Row *row)
 {
     PrimitiveLanes p;
+#if HAS_PATH
+    const Gather4 row0 = row_real4(row, 0), row1 = row_real4(row, 4), row2 = row_real4(row, 8),
+                  rest = row_real4(row, 12);
+    p.row0 = v3_make(row0.x, row0.y, row0.z);
+    p.row1 = v3_make(row1.x, row1.y, row1.z);
+    p.row2 = v3_make(row2.x, row2.y, row2.z);
+    p.c = v3_make(row0.w, row1.w, row2.w);
+    p.p0 = rest.x;
+    p.p1 = rest.y;
+    p.p2 = rest.w;
+#else
     p.row0 = row_real3(row, 0);
     p.row1 = row_real3(row, 4);
     p.row2 = row_real3(row, 8);
@@ -14,6 +25,7 @@ static inline PrimitiveLanes primitive_gather(const Row *row)
     p.p0 = row_real(row, 12);
     p.p1 = row_real(row, 13);
     p.p2 = row_real(row, 15);
+#endif
     return p;
 }
 

@@ -140,14 +140,13 @@ static inline void add_highlight(const Hit *hit, vf share, v3 dir, Scattering *s
 static inline v3 highlight_direction(const Hit *hit, vf u, vf turn, vm *valid)
 {
     const vf n = row_real(&hit->material, MATERIAL_SHININESS);
-    const v3 to_eye = v3_neg(hit->dir);
     v3 dir;
 #if HAS_PHONG
     const v3 mirrored = v3_normalize(reflect_about(hit->dir, hit->ns));
     dir = v3_select(n > (vf)(0.0f), lobe_direction(mirrored, n, u, turn), cosine_direction(hit->ns, u, turn));
 #endif
 #if HAS_BLINN
-    const v3 h = lobe_direction(hit->ns, n, u, turn);
+    const v3 to_eye = v3_neg(hit->dir), h = lobe_direction(hit->ns, n, u, turn);
     const v3 about = v3_normalize(v3_neg(reflect_about(to_eye, h)));
 #if HAS_PHONG
     const vm is_blinn = hit_is_blinn(hit);

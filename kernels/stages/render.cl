@@ -166,6 +166,9 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_ENVIRONMENT_LIGHT
                          global const uint *environment_cdf, global const f32 *environment_edges,
 #endif
+#if HAS_ENVIRONMENT_LIGHT && HAS_PATH
+                         global const int *environment_guides,
+#endif
 #if HAS_PREFILTERED
                          global const f32 *environment_levels,
 #endif
@@ -189,11 +192,15 @@ kernel void render_tiles(constant RenderParams *params,
                          uint pending_reals, uint band_top, uint band_rows, uint sample_begin,
                          uint sample_end, local uint *scratch)
 {
+#if HAS_PATH
+    const uint group = get_group_id(0);
+#else
     const uint group = get_group_id(0), groups = get_num_groups(0);
+#endif
     const uint side = TILE_SIDE >> params->slots_log2 / 2;
     const uint columns = (params->crop_width + side - 1) / side;
     const uint tiles = columns * ((band_rows + side - 1) / side);
-    #if HAS_PATH
+#if HAS_PATH
     uint rays[RAY_COUNTS] = { 0, 0, 0, 0, 0 };
 #else
     uint rays[RAYS_KINDS] = { 0, 0, 0, 0 };
@@ -247,6 +254,9 @@ kernel void render_tiles(constant RenderParams *params,
 #if HAS_ENVIRONMENT_LIGHT
     shading.environment.cdf = environment_cdf;
     shading.environment.edges = environment_edges;
+#if HAS_PATH
+    shading.environment.guides = environment_guides;
+#endif
 #endif
 #if HAS_PREFILTERED
     shading.environment.levels = environment_levels;

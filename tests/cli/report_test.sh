@@ -9,7 +9,7 @@ report=$(dirname "$clrt")/clrt-report
 # seed, and one ulp off in the first pixel without a seed. It uses nothing but the shell. FAKE: what is wrong with it.
 cat >fake <<'END'
 #!/bin/bash
-samples=16 seed= math=exact aov= check= stats= crop=
+samples=16 seed= math=exact aov= check= stats= crop= kind=mirrored idle=null
 while [ $# -gt 0 ]; do
     case $1 in
         --check) check=yes ;;
@@ -19,6 +19,7 @@ while [ $# -gt 0 ]; do
         --math) math=$2; shift ;;
         --aov) aov=$2; shift ;;
         --crop) crop=$2; shift ;;
+        --integrator) [ "$2" = path ] && kind=scattered idle=0.125; shift ;;
         --size | --device | --depth) shift ;;
         --) shift; break ;;
     esac
@@ -53,7 +54,7 @@ pixels=64
 printf '{"width": 8, "height": 8, "device": "none & nowhere", "features": ["A", "B"],
  "seconds": {"total": 0.5, "device": 0.1, "scene": 0.01, "meshes": 0, "layout": 0.02, "compile": 0.25, "trace": %s},
  "bytes": {"device_peak": 1048576, "scene": 1, "state": 2, "film": 3, "host_peak": 4},
- "rays": {"camera": %d, "shadow": 10, "mirrored": 20, "transmitted": 0},
+ "rays": {"camera": %d, "shadow": 10, "'$kind'": 20, "transmitted": 0}, "idle_lanes": '$idle',
  "run": {"scene_hash": "0123456789abcdef", "kernel_hash": "k", "driver": "1"}, "budget": {"e_quant": 0.25}}' \
     "0.$((1000 + samples))" $((pixels * samples)) >"$stats"
 END
@@ -90,7 +91,7 @@ expect 2 'rising' "$report" --samples 4,1 'a<b.txt'
 
 # ---- figures -----------------------------------------------------------------------------------------------------
 run=("$report" --clrt ./fake --samples 1,4 --runs 3 --cold-runs 2)
-expect 0 'warm run 3 of 3' "${run[@]}" --variant low="--depth 1" --peers <(echo 'other & more,1,0.5') 'a<b.txt'
+expect 0 'warm run 3 of 3' "${run[@]}" --variant low="--depth 1 --integrator path" --peers <(echo 'other & more,1,0.5') 'a<b.txt'
 grep -q '^a_b *exact ' stdout || fail "no row in the table: $(cat stdout)"
 [ "$(wc -l <report/report.csv)" = 5 ] || fail "not four rows in the CSV"
 [ "$(wc -l <report/rows.jsonl)" = 4 ] || fail "not four rows of JSON"
@@ -100,6 +101,10 @@ grep -q '"schema": "clrt-report/1"' report/report.json || fail "no schema"
 is run.spp.mean exact 4
 is rays.camera exact 256
 is rays.total exact 286
+is rays.reflect exact 20
+[ -z "$(value rays.idle_lanes exact)" ] || fail "lanes of nothing are idle"
+is rays.reflect low 20
+is rays.idle_lanes low 0.125
 is time.warm.kernel_s.median exact 0.1004
 is time.warm.kernel_s.mad exact 0
 is rays.ns_per_ray exact $(awk 'BEGIN { printf "%.9g", 0.1004 / 286 * 1e9 }')

@@ -169,6 +169,9 @@ static void refuses_with_words(void **state)
             "--aov 'depth,colour': must be a list of depth, normal, position, albedo, id, with commas between");
     refused("--aov id a -", "--aov needs a file's name for OUT");
     refused("--environment-lighting baked a b", "--environment-lighting 'baked': must be sampled or prefiltered");
+    refused("--integrator light a b", "--integrator 'light': must be whitted or path");
+    refused("--sampling light a b", "--sampling 'light': must be both, lights or surfaces");
+    refused("a b --sampling", "--sampling needs a value: HOW");
     refused("--bits 9 --depth 99 a b",
             "--bits '9': must be 8 or 16\n--depth '99': must be a whole number from 0 to 64");
 }
@@ -243,6 +246,20 @@ static void overrides_the_scene(void **state)
     options = accepted("--environment-lighting prefiltered a b");
     assert_true(options_override(&options, &scene, &error));
     assert_int_equal(scene.render.environment_lighting, ENVIRONMENT_PREFILTERED);
+    assert_int_equal(scene.render.integrator, INTEGRATOR_WHITTED);
+    assert_int_equal(scene.render.light_sampling, LIGHT_SAMPLING_BOTH);
+    options = accepted("--integrator path --sampling surfaces a b");
+    assert_true(options_override(&options, &scene, &error));
+    assert_int_equal(scene.render.integrator, INTEGRATOR_PATH);
+    assert_int_equal(scene.render.light_sampling, LIGHT_SAMPLING_SURFACES);
+    options = accepted("--sampling=lights a b"); // the scene's integrator stays
+    assert_true(options_override(&options, &scene, &error));
+    assert_int_equal(scene.render.integrator, INTEGRATOR_PATH);
+    assert_int_equal(scene.render.light_sampling, LIGHT_SAMPLING_LIGHTS);
+    options = accepted("--integrator whitted --sampling both a b");
+    assert_true(options_override(&options, &scene, &error));
+    assert_int_equal(scene.render.integrator, INTEGRATOR_WHITTED);
+    assert_int_equal(scene.render.light_sampling, LIGHT_SAMPLING_BOTH);
     options = accepted("--crop 16,5,5,5 a b");
     assert_false(options_override(&options, &scene, &error));
     assert_int_equal(error.code, ERROR_USAGE);

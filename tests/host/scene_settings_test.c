@@ -114,6 +114,7 @@ static void test_render(void **state)
     assert_int_equal(p.scene->render.max_depth, 0);
     assert_true(p.scene->render.min_weight == 0);
     assert_false(p.scene->render.shadows);
+    assert_int_equal(p.scene->render.integrator, INTEGRATOR_WHITTED);
     assert_int_equal(p.scene->render.environment_samples, 4);
     assert_int_equal(p.scene->render.environment_lighting, ENVIRONMENT_PREFILTERED);
     parsed_end(&p);
@@ -124,7 +125,9 @@ static void test_render(void **state)
     assert_int_equal(p.scene->render.ambient_occlusion_samples, 4);
     assert_true(p.scene->render.ambient_occlusion_distance == 2);
     parsed_end(&p);
-    expect_error("render { integrator path }", "1:10: 'integrator path' is not supported yet");
+    p = parse_good("render { integrator path }");
+    assert_int_equal(p.scene->render.integrator, INTEGRATOR_PATH);
+    parsed_end(&p);
 }
 
 static void test_output(void **state)

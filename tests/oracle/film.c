@@ -115,5 +115,7 @@ Estimate film_paths(const Scene *scene, const Camera *camera, const Paths *paths
     real rounds = paths->rounds;
     Vec mean = scaled(sum, 1 / rounds);
     Vec spread = sub(scaled(squares, 1 / rounds), times(mean, mean));
+    /* Rounding can make it less than 0 where there is none. */
+    spread = vec(fmaxl(0, spread.x), fmaxl(0, spread.y), fmaxl(0, spread.z));
     return (Estimate){mean, scaled(spread, 1 / fmaxl(1, rounds - 1))};
 }

@@ -1,6 +1,7 @@
 // Area lights and ambient occlusion against closed forms. Each picture shows one point of a plane: its pixels
 // are independent estimates of what arrives there.
 #include "estimate.h"
+#include "irradiance.h"
 
 static const f64 pi = 3.14159265358979323846;
 
@@ -32,61 +33,6 @@ static Estimate estimate_point(Device *device, f64 x, f64 y, u32 samples, const 
     const Estimate estimate = estimate_of(&picture, 0);
     picture_destroy(&picture);
     return estimate;
-}
-
-// ---- closed forms -----------------------------------------------------------------------------------------
-
-enum { CORNERS_MAX = 12 };
-
-typedef struct Polygon {
-    Vec3 corner[CORNERS_MAX];
-    int count;
-} Polygon;
-
-// The part of the polygon where p.normal >= limit.
-static Polygon clipped(const Polygon *in, Vec3 normal, f64 limit)
-{
-    Polygon out = {.count = 0};
-    for (int i = 0; i < in->count; i++) {
-        const Vec3 a = in->corner[i], b = in->corner[(i + 1) % in->count];
-        const f64 da = vec_dot(a, normal) - limit, db = vec_dot(b, normal) - limit;
-        if (da >= 0)
-            out.corner[out.count++] = a;
-        if ((da >= 0) != (db >= 0))
-            out.corner[out.count++] = vec_add(a, vec_scale(vec_sub(b, a), da / (da - db)));
-    }
-    return out;
-}
-
-// Irradiance at p, with normal +z, of a polygon of radiance 1 (Lambert, "Photometria", 1760).
-static f64 polygon_irradiance(Polygon polygon, Vec3 p)
-{
-    const Polygon above = clipped(&polygon, (Vec3){0, 0, 1}, p.z);
-    f64 sum = 0;
-    for (int i = 0; i < above.count; i++) {
-        const Vec3 a = vec_normalize(vec_sub(above.corner[i], p));
-        const Vec3 b = vec_normalize(vec_sub(above.corner[(i + 1) % above.count], p));
-        const Vec3 across = vec_cross(a, b);
-        const f64 sine = vec_length(across);
-        if (sine > 0)
-            sum += atan2(sine, vec_dot(a, b)) * across.z / sine;
-    }
-    return fabs(sum) / 2;
-}
-
-// Irradiance of a sphere of radiance 1 that fills the half-angle `half` about a direction at `tilt` from the
-// normal: ring after ring of directions, each cut off at the horizon.
-static f64 sphere_irradiance(f64 half, f64 tilt)
-{
-    enum { RINGS = 20000 };
-    f64 sum = 0;
-    for (int i = 0; i < RINGS; i++) {
-        const f64 angle = (i + 0.5) / RINGS * half;
-        const f64 a = cos(tilt) * cos(angle), b = sin(tilt) * sin(angle);
-        const f64 end = a >= b ? pi : a <= -b ? 0 : acos(-a / b);
-        sum += 2 * (a * end + b * sin(end)) * sin(angle);
-    }
-    return sum * half / RINGS;
 }
 
 // ---- area lights ------------------------------------------------------------------------------------------
@@ -150,7 +96,7 @@ static void test_penumbra(void **state)
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         const Vec3 p = {places[i], 0.2, 0};
         const Polygon light = {{{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}}, 4};
-        const Polygon seen = clipped(&light, (Vec3){1, 0, 0}, -p.x);
+        const Polygon seen = polygon_clipped(&light, (Vec3){1, 0, 0}, -p.x);
         char *scene =
             text_of("light rectangle { corner -1 -1 2 edge1 0 2 0 edge2 2 0 0 radiance 3 samples %d }\n%s",
                     1 + (int)i % 2, blocker);

@@ -23,7 +23,9 @@ Device *test_device_open(u32 threads)
     return device;
 }
 
-Layout *layout_of(const char *text)
+Layout *layout_of(const char *text) { return layout_by(text, LIGHT_SAMPLING_BOTH); }
+
+Layout *layout_by(const char *text, LightSampling sampling)
 {
     Arena *arena = arena_create();
     Diagnostics *diagnostics = diagnostics_create();
@@ -36,6 +38,7 @@ Layout *layout_of(const char *text)
         diagnostics_print(diagnostics, stdout);
         fail_msg("the scene of the test has errors: %s", error.text);
     }
+    scene->render.light_sampling = sampling;
     Layout *layout = layout_create(scene, &error);
     if (!layout)
         fail_msg("%s", error.text);
@@ -90,6 +93,25 @@ Picture render_layout(Device *device, const Layout *layout, const RenderHow *how
     take_rows(render, &picture);
     render_destroy(render);
     return picture;
+}
+
+f32 *render_with_seeds(Device *device, const Layout *layout, u32 first, u32 count)
+{
+    const RenderJob job = {.layout = layout, .device = device, .width = layout->params.width,
+                           .height = layout->params.height};
+    const size_t values = 3 * (size_t)job.width * job.height;
+    f32 *rgb = calloc(values * count, sizeof *rgb);
+    Error error = {0};
+    Render *render = render_create(&job, &error);
+    assert_non_null(rgb);
+    for (u32 k = 0; k < count; k++) {
+        if (!render || !render_restart(render, first + k, &error))
+            fail_msg("%s", error.text);
+        Picture picture = {.width = job.width, .height = job.height, .rgb = rgb + values * k};
+        take_rows(render, &picture);
+    }
+    render_destroy(render);
+    return rgb;
 }
 
 Picture render_text(Device *device, const char *text, const RenderHow *how)

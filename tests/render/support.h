@@ -27,6 +27,8 @@ Device *test_device_open(u32 threads);
 // The layout of a scene without errors; a scene that has some fails the running test. Files that it names
 // without a folder are those of meshes/.
 Layout *layout_of(const char *text);
+// The same, where paths look for light in the given way.
+Layout *layout_by(const char *text, LightSampling sampling);
 
 // How a picture is made where that shall not be seen in it. Zeros are the defaults.
 typedef struct RenderHow {
@@ -49,6 +51,8 @@ Picture render_layout(Device *device, const Layout *layout, const RenderHow *how
 // how NULL: the defaults.
 Picture render_text(Device *device, const char *text, const RenderHow *how);
 void picture_destroy(Picture *picture);
+// `count` pictures one behind the other, with seeds first, first + 1, ...; the caller's to free.
+f32 *render_with_seeds(Device *device, const Layout *layout, u32 first, u32 count);
 
 const f32 *pixel_at(const Picture *picture, u32 x, u32 y);
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # kernels.sh BUNDLE SOURCE_DIR: compiles the flattened kernels with clang, warnings as errors, with all
-# features off, all on, and each alone, as a CPU and as a GPU take them; those of the self-test with all on.
+# features off, all on, and each alone, as a CPU and as a GPU take them, and each with paths; those of the self-test
+# with all on.
 # Double and fast arithmetic with all off and all on.
 # BUNDLE is the clrt-bundle program.
 # Exit status: 0 clean, 1 complaints, 77 skipped because something is missing.
@@ -54,6 +55,9 @@ for machine in "-DLANES=8 -DBATCH=32 -DGROUP=1 $exact" "-DLANES=1 -DBATCH=1 -DGR
     case $machine in *"$exact") ;; *) continue ;; esac
     for feature in $features; do
         echo "program.cl $machine$(definitions "$feature")"
+        case $machine in
+            -DLANES=8*) [ "$feature" = PATH ] || echo "program.cl $machine$(definitions "$feature" PATH)" ;;
+        esac
     done
 done >"$work/configurations"
 tr '\n' '\0' <"$work/configurations" |

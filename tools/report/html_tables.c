@@ -73,7 +73,7 @@ void html_tables_times(FILE *file, const json_t *rows, const char *scene)
 
 void html_tables_rays(FILE *file, const json_t *rows, const char *scene)
 {
-    page_table(file, "mode|camera rays|shadow rays|mirrored rays|transmitted rays|all rays");
+    page_table(file, "mode|camera rays|shadow rays|mirrored or scattered rays|transmitted rays|all rays");
     size_t i;
     json_t *row;
     json_array_foreach (rows, i, row) {

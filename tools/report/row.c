@@ -60,7 +60,7 @@ static json_t *error_object(void)
 json_t *row_create(const char *scene, const Mode *mode)
 {
     static const char *const RAYS[] = {"camera",      "shadow",     "reflect",        "refract", "total",
-                                       "mrays_per_s", "ns_per_ray", "visits_per_ray", NULL};
+                                       "mrays_per_s", "ns_per_ray", "visits_per_ray", "idle_lanes", NULL};
     static const char *const MEMORY[] = {"device_peak_bytes",
                                          "host_peak_bytes",
                                          "largest_buffer_bytes",
@@ -119,7 +119,9 @@ void row_take_stats(json_t *row, const json_t *stats)
     static const char *const PICTURE[] = {"device", "features", "width", "height", NULL};
     static const char *const RUN[] = {"scene_hash",  "clrt_version", "platform", "device", "driver",
                                       "kernel_hash", "depth",        "seed",     NULL};
-    static const char *const RAYS[] = {"camera", "shadow", "reflect=mirrored", "refract=transmitted", NULL};
+    static const char *const RAYS[] = {"camera", "shadow", "reflect=mirrored", "reflect=scattered",
+                                       "refract=transmitted", NULL};
+    static const char *const WAVES[] = {"idle_lanes", NULL};
     static const char *const MEMORY[] = {"device_peak_bytes=device_peak",
                                          "host_peak_bytes=host_peak",
                                          "largest_buffer_bytes=largest_buffer",
@@ -131,6 +133,7 @@ void row_take_stats(json_t *row, const json_t *stats)
     copy(json_object_get(row, "run"), PICTURE, stats);
     copy(json_object_get(row, "run"), RUN, json_object_get(stats, "run"));
     copy(json_object_get(row, "rays"), RAYS, json_object_get(stats, "rays"));
+    copy(json_object_get(row, "rays"), WAVES, stats);
     copy(json_object_get(row, "memory"), MEMORY, json_object_get(stats, "bytes"));
     copy(json_object_get(row, "health"), HEALTH, json_object_get(stats, "health"));
     const f64 rays = row_rays(stats), seconds = doc_number(stats, "seconds.trace");

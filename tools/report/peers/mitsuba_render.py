@@ -181,13 +181,14 @@ def main():
     scene = load(job)
     seconds = []
     for k in range(job["warm"] + 1):
-        start = time.perf_counter()
+        start, cpu = time.perf_counter(), time.process_time()
         image = mi.render(scene, spp=job["spp"], seed=job["seed"] + 1000 * k)
         dr.eval(image)
         dr.sync_thread()
         seconds.append(time.perf_counter() - start)
+        cpu = time.process_time() - cpu
     mi.Bitmap(image).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False).write(job["out"])
-    print(json.dumps({"version": mi.__version__, "seconds": seconds}))
+    print(json.dumps({"version": mi.__version__, "seconds": seconds, "cpu_s": cpu}))
 
 
 if __name__ == "__main__":

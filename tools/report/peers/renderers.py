@@ -2,13 +2,15 @@
 timed=False spares what is done for them alone.
 
 Each render is a process of its own. `render_s` are the seconds of rendering alone: those of clrt's stage `trace`, of
-Mitsuba's second call of mi.render (the first compiles), of Cycles without its synchronization. `wall_s` is all of the
-process, for Mitsuba without the second render.
+Mitsuba's second call of mi.render (the first compiles), of Cycles without its synchronization. `cpu_s` are those of all
+cores together, which other work on the machine disturbs less: of the whole process for clrt, of the second render for
+Mitsuba, of Cycles with its synchronization. `wall_s` is all of the process, for Mitsuba without the second render.
 """
 import array
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import time
@@ -59,12 +61,15 @@ class Clrt:
 
     def render(self, spp, seed, out, timed=True, extra=()):
         stats = os.path.join(self.folder, "clrt.json")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         _, _, wall = run([self.program, "-q", "--samples", str(spp), "--seed", str(seed), "--stats=" + stats,
                           *self.options, *extra, self.path, out], self.name)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         with open(stats, encoding="utf-8") as file:
             said = json.load(file)
         self.version = said["run"]["clrt_version"]
-        return {"render_s": said["seconds"]["trace"], "wall_s": wall}
+        return {"render_s": said["seconds"]["trace"], "wall_s": wall, "cpu_s": cpu}
 
 
 class Mitsuba:
@@ -109,7 +114,8 @@ class Mitsuba:
         said, _, wall = run([self.python, os.path.join(HERE, "mitsuba_render.py"), path], self.name)
         told = last_object(said, self.name)
         self.version = told["version"]
-        return {"render_s": told["seconds"][-1], "wall_s": wall - sum(told["seconds"][1:])}
+        return {"render_s": told["seconds"][-1], "wall_s": wall - sum(told["seconds"][1:]),
+                "cpu_s": told["cpu_s"]}
 
 
 class Cycles:
@@ -133,4 +139,5 @@ class Cycles:
         self.version = told["version"]
         # A Blender that keeps no log tells only the time with synchronization.
         found = re.search(r"Render time \(without synchronization\): ([0-9.]+)", log + said)
-        return {"render_s": float(found.group(1)) if found else told["operator_seconds"], "wall_s": wall}
+        return {"render_s": float(found.group(1)) if found else told["operator_seconds"], "wall_s": wall,
+                "cpu_s": told["cpu_s"]}
