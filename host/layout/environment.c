@@ -122,24 +122,28 @@ static bool add_tables(Layout *layout, Error *error)
     return enough || error_set(error, ERROR_MEMORY, "no memory for the tables of the environment");
 }
 
-// Guides into the rows of columns.
+static void fill_guides(const u32 *cdf, u32 count, i32 *guides)
+{
+    u32 index = 0;
+    for (u64 k = 0; k <= ENVIRONMENT_GUIDES; k++) {
+        while (index + 1 < count && cdf[index + 1] <= k << (32 - ENVIRONMENT_GUIDES_LOG2))
+            index++;
+        guides[k] = (i32)index;
+    }
+}
+
 static bool add_guides(Layout *layout, Error *error)
 {
     const u32 width = layout->environment->width, rows = layout->environment->height + 1;
-    layout->environment_guide_count = rows * (ENVIRONMENT_GUIDES + 1);
+    layout->environment_guide_count = (rows + 1) * (ENVIRONMENT_GUIDES + 1);
     layout->environment_guides = page_alloc(layout->environment_guide_count * sizeof *layout->environment_guides);
     if (!layout->environment_guides)
         return error_set(error, ERROR_MEMORY, "no memory for the tables of the environment");
-    for (u32 row = 0; row < rows; row++) {
-        const u32 *cdf = layout->environment_cdf + rows + (u64)row * width;
-        i32 *guides = layout->environment_guides + (u64)row * (ENVIRONMENT_GUIDES + 1);
-        u32 column = 0;
-        for (u64 k = 0; k <= ENVIRONMENT_GUIDES; k++) {
-            while (column + 1 < width && cdf[column + 1] <= k << (32 - ENVIRONMENT_GUIDES_LOG2))
-                column++;
-            guides[k] = (i32)column;
-        }
-    }
+    const u32 *cdf = layout->environment_cdf;
+    i32 *guides = layout->environment_guides;
+    fill_guides(cdf, rows, guides);
+    for (u64 row = 0; row < rows; row++)
+        fill_guides(cdf + rows + row * width, width, guides + (row + 1) * (ENVIRONMENT_GUIDES + 1));
     return true;
 }
 

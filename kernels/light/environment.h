@@ -207,6 +207,16 @@ OUTLINE Drawn draw_index(global const uint *table, vi first, uint count,
     return drawn;
 }
 
+#if HAS_PATH
+// The same with the guides of that number.
+static inline Drawn draw_guided(const Environment *environment, vi first, uint count, vi guides, vu number)
+{
+    const vi step = guides * (ENVIRONMENT_GUIDES + 1) + VI_FROM_VU(number >> (32 - ENVIRONMENT_GUIDES_LOG2));
+    return draw_index(environment->cdf, first, count, vi_gather(environment->guides, step),
+                      vi_gather(environment->guides, step + 1) + 1, number);
+}
+#endif
+
 // Inverts the integral of a density that goes linearly from a at 0 to b at 1.
 static inline vf draw_linear(vf u, vf a, vf b)
 {
@@ -221,11 +231,9 @@ OUTLINE EnvironmentSample environment_sample(const Environment *environment, Sam
     global const EnvironmentRecord *record = environment->record;
     const int width = (int)record->width, height = (int)record->height;
 #if HAS_PATH
-    const Drawn row = draw_index(environment->cdf, (vi)(0), record->height + 1, (vi)(0), (vi)(height + 1), bits.y);
-    const vi step = row.index * (ENVIRONMENT_GUIDES + 1) + VI_FROM_VU(bits.x >> (32 - ENVIRONMENT_GUIDES_LOG2));
-    const Drawn column = draw_index(environment->cdf, row.index * width + (height + 1), record->width,
-                                    vi_gather(environment->guides, step),
-                                    vi_gather(environment->guides, step + 1) + 1, bits.x);
+    const Drawn row = draw_guided(environment, (vi)(0), record->height + 1, (vi)(0), bits.y);
+    const Drawn column = draw_guided(environment, row.index * width + (height + 1), record->width, row.index + 1,
+                                     bits.x);
 #else
     const Drawn row = draw_index(environment->cdf, (vi)(0), record->height + 1, bits.y);
     const Drawn column =

@@ -11,8 +11,8 @@
 
 #include "shared/types.h"
 
-// For paths, which look for many directions, each row of columns has guides: entry k of ENVIRONMENT_GUIDES + 1 is the
-// column that k / ENVIRONMENT_GUIDES falls on, so that the search stays within a cache line or two.
+// For paths, which look for many directions, the rows, and then the columns of each row, have guides: entry k of
+// ENVIRONMENT_GUIDES + 1 is what k / ENVIRONMENT_GUIDES falls on, so that the search stays within a cache line or two.
 #define ENVIRONMENT_GUIDES_LOG2 6
 #define ENVIRONMENT_GUIDES (1 << ENVIRONMENT_GUIDES_LOG2)
 

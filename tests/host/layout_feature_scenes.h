@@ -25,6 +25,8 @@ typedef struct FeatureScenes {
     "environment { file \"" CLRT_TESTS "/render/meshes/sky.hdr\" " properties " }\n"
 #define MATERIAL_PBR_M "material m pbr { }\n"
 #define LIGHT_LAMP "light point { position 3 4 0 }\n"
+#define LIGHT_LAMPS LIGHT_LAMP LIGHT_LAMP LIGHT_LAMP LIGHT_LAMP
+#define RENDER_PATHS "render { integrator path }\n"
 #define TEXTURE_IMAGE_T "texture t image { file \"" CLRT_TESTS "/render/meshes/skin.png\" }\n"
 #define MATERIAL_M(properties) "material m phong { " properties " }\n"
 
@@ -88,6 +90,9 @@ static const FeatureScenes feature_scenes[] = {
      "render { environment_lighting prefiltered }\n" MATERIAL_PBR_M SHAPE_BALL_OF("m") ENVIRONMENT_SKY(""),
      "render { environment_lighting prefiltered }\n" MATERIAL_PBR_M SHAPE_BALL ENVIRONMENT_SKY("")},
     {FEATURE_HIT_RANDOM, SHAPE_BALL LIGHT_BULB("1"), SHAPE_BALL LIGHT_LAMP},
+    {FEATURE_PATH, SHAPE_BALL RENDER_PATHS, "ambient 0\n" SHAPE_BALL},
+    {FEATURE_MANY_LIGHTS, SHAPE_BALL LIGHT_LAMPS LIGHT_LAMPS LIGHT_LAMP RENDER_PATHS,
+     SHAPE_BALL LIGHT_LAMPS LIGHT_LAMPS RENDER_PATHS},
     {FEATURE_SHADOWS, SHAPE_BALL LIGHT_LAMP, SHAPE_BALL LIGHT_LAMP "render { shadows off }\n"},
     {FEATURE_TRANSMITTANCE, MATERIAL_M("transmit 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP,
      MATERIAL_M("transmit 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP "render { shadows off }\n"},

@@ -10,7 +10,7 @@
 #include "bundle/bundle.h"
 #include "render/plan.h"
 
-enum { FUNCTIONS_MAX = 600, PROGRAMS = 2 * FEATURE_SCENE_COUNT };
+enum { FUNCTIONS_MAX = 600, PROGRAMS = 4 * FEATURE_SCENE_COUNT };
 
 // Texts that only the code of a feature has. Those that begin and end as names do are looked for as whole
 // names.
@@ -54,6 +54,8 @@ static const struct {
     {FEATURE_ENVIRONMENT_LIGHT, {"environment_ray", "environment_sample", "draw_index"}},
     {FEATURE_PREFILTERED, {"hit_prefiltered", "prefiltered_map", NULL}},
     {FEATURE_HIT_RANDOM, {"hit_random", "path_begin", "PATH"}},
+    {FEATURE_PATH, {"path_trace", "path_shade", "path_scattering"}},
+    {FEATURE_MANY_LIGHTS, {"light_table", "path->light_count", NULL}},
     {FEATURE_SHADOWS, {"intersect_shadow", "shadow_batch", "SHADOW_ORG"}},
     {FEATURE_TRANSMITTANCE, {"transmit_shadows", "last_primitive", "follows_last"}},
     {FEATURE_TRANSMIT_TEXTURE, {"textured_transmit", NULL, NULL}},
@@ -77,6 +79,19 @@ static const struct {
     {FEATURE_CLAMP, {"clamp_samples", "film_add_clamped", "clamp_limit"}},
 };
 
+// The same in programs of the path integrator, of features whose words there are others.
+static const struct {
+    Feature feature;
+    const char *words[3];
+} path_words[] = {
+    {FEATURE_LIGHTS, {"path_lights", "path_light_ray", NULL}},
+    {FEATURE_ENVIRONMENT, {"path_sky", "environment_texels", NULL}},
+    {FEATURE_ENVIRONMENT_LIGHT, {"environment_look", "environment_sample", "draw_index"}},
+    {FEATURE_SHADOWS, {"intersect_shadow", "SHADOW_ORG", NULL}},
+    {FEATURE_REFLECT, {"scatter_make", NULL, NULL}},
+    {FEATURE_TRANSMIT, {NULL, NULL, NULL}}, // shares all with mirrored rays
+};
+
 #define BIT(name) ((FeatureSet)1 << FEATURE_##name)
 
 static const FeatureSet shapes = BIT(SPHERE) | BIT(GIANT_SPHERE) | BIT(ELLIPSOID) | BIT(PLANE) | BIT(BOX) |
@@ -97,6 +112,8 @@ static const struct {
     {"environment_cdf", BIT(ENVIRONMENT_LIGHT)}, {"environment_edges", BIT(ENVIRONMENT_LIGHT)},
     {"environment_levels", BIT(PREFILTERED)},
     {"blocks", BIT(MESH)},         {"mesh_runs", BIT(MESH)},  {"mesh_normals", BIT(MESH_NORMALS)},
+    {"light_table", BIT(MANY_LIGHTS)}, {"path_techniques", BIT(PATH)}, {"path_light_choices", BIT(PATH)},
+    {"path_area_materials", BIT(PATH)},
     {"quantiles", BIT(FILTER_TABLE)}, {"mesh_uvs", BIT(MESH_UVS)},   {"mesh_indices", BIT(MESH_NORMALS) | BIT(MESH_UVS)},
 };
 
@@ -269,7 +286,13 @@ static void program_free(ProgramText *program)
     free(program->reached);
 }
 
-// Programs 2 i and 2 i + 1: with and without the feature of row i.
+// The scene under the path integrator; NULL where it says itself how it is rendered.
+static char *scene_of_paths(const char *scene)
+{
+    return strstr(scene, "render {") ? NULL : text_of("%s" RENDER_PATHS, scene);
+}
+
+// Programs 2 i and 2 i + 1: with and without the feature of row i; behind all of them the same scenes with paths.
 static int make_programs(void **state)
 {
     FILE *file = fopen("features_test.cl", "w");
@@ -278,9 +301,14 @@ static int make_programs(void **state)
     assert_int_equal(fclose(file), 0);
     ProgramText *programs = calloc(PROGRAMS, sizeof *programs);
     assert_non_null(programs);
-    for (u32 i = 0; i < PROGRAMS; i++)
-        programs[i] = i % 2 ? program_make(feature_scenes[i / 2].without, 0)
-                            : program_make(feature_scenes[i / 2].with, feature_scenes_asked(&feature_scenes[i / 2]));
+    for (u32 i = 0; i < PROGRAMS; i++) {
+        const FeatureScenes *row = &feature_scenes[i / 2 % FEATURE_SCENE_COUNT];
+        const char *scene = i % 2 ? row->without : row->with;
+        char *paths = i < PROGRAMS / 2 ? NULL : scene_of_paths(scene);
+        if (i < PROGRAMS / 2 || paths)
+            programs[i] = program_make(paths ? paths : scene, i % 2 ? 0 : feature_scenes_asked(row));
+        free(paths);
+    }
     *state = programs;
     return 0;
 }
@@ -295,6 +323,33 @@ static int free_programs(void **state)
     return 0;
 }
 
+// Texts of the feature in the program.
+static const char *const *words_of(const ProgramText *program, size_t row)
+{
+    const bool paths = features_have(program->features, FEATURE_PATH);
+    for (size_t i = 0; paths && i < sizeof path_words / sizeof *path_words; i++)
+        if (path_words[i].feature == feature_words[row].feature)
+            return path_words[i].words;
+    return feature_words[row].words;
+}
+
+static Feature shown_by(u32 i)
+{
+    return feature_scenes[i / 2 % FEATURE_SCENE_COUNT].feature;
+}
+
+static void expect_words(const ProgramText *program, size_t row, u32 i)
+{
+    const Feature feature = feature_words[row].feature;
+    const char *const *words = words_of(program, row);
+    const bool has = features_have(program->features, feature);
+    for (int k = 0; k < 3 && words[k]; k++)
+        if ((find_word(program->reached, words[k]) != NULL) != has)
+            fail_msg("'%s' of %s is %s the program of the scene %s %s%s", words[k], feature_name(feature),
+                     has ? "missing in" : "in", i % 2 ? "without" : "with", feature_name(shown_by(i)),
+                     i < PROGRAMS / 2 ? "" : ", with paths");
+}
+
 // Every program has the words of its features and no word of another one.
 static void test_words(void **state)
 {
@@ -303,17 +358,14 @@ static void test_words(void **state)
     for (size_t w = 0; w < sizeof feature_words / sizeof *feature_words; w++) {
         const Feature feature = feature_words[w].feature;
         listed |= feature_bit(feature);
-        for (u32 i = 0; i < PROGRAMS; i++) {
-            const bool has = features_have(programs[i].features, feature);
-            for (int k = 0; k < 3 && feature_words[w].words[k]; k++)
-                if ((find_word(programs[i].reached, feature_words[w].words[k]) != NULL) != has)
-                    fail_msg("'%s' of %s is %s the program of the scene %s %s", feature_words[w].words[k],
-                             feature_name(feature), has ? "missing in" : "in", i % 2 ? "without" : "with",
-                             feature_name(feature_scenes[i / 2].feature));
-        }
+        for (u32 i = 0; i < PROGRAMS; i++)
+            if (programs[i].text)
+                expect_words(&programs[i], w, i);
     }
     assert_true(listed == feature_bit(FEATURE_COUNT) - 1); // a new feature needs its words here
     for (u32 i = 0; i < PROGRAMS; i++) {
+        if (!programs[i].text)
+            continue;
         // Lights that shine from somewhere; shapes that are not meshes.
         assert_true((find_word(programs[i].reached, "attenuation") != NULL) ==
                     ((programs[i].features & (BIT(POINT) | BIT(SPOT))) != 0));
@@ -328,14 +380,16 @@ static void test_arguments(void **state)
 {
     const ProgramText *programs = *state;
     for (u32 i = 0; i < PROGRAMS; i++) {
+        if (!programs[i].text)
+            continue;
         const char *begin = strstr(programs[i].text, "render_tiles(");
         assert_non_null(begin);
         char *list = text_of("%.*s", (int)strcspn(begin, "{"), begin);
         for (size_t a = 0; a < sizeof arguments / sizeof *arguments; a++)
             if ((find_word(list, arguments[a].name) != NULL) !=
                 ((programs[i].features & arguments[a].features) != 0))
-                fail_msg("argument %s, scene %s %s: %s", arguments[a].name, i % 2 ? "without" : "with",
-                         feature_name(feature_scenes[i / 2].feature), list);
+                fail_msg("argument %s, scene %s %s%s: %s", arguments[a].name, i % 2 ? "without" : "with",
+                         feature_name(shown_by(i)), i < PROGRAMS / 2 ? "" : ", with paths", list);
         free(list);
     }
 }
@@ -348,11 +402,17 @@ static void test_sizes(void **state)
     print_message("%-16s %9s %9s   bytes of functions that the kernel reaches (and others)\n", "", "without",
                   "with");
     for (u32 i = 0; i < PROGRAMS; i += 2) {
+        if (!programs[i].text || !programs[i + 1].text)
+            continue;
         const ProgramText *with = &programs[i], *without = &programs[i + 1];
+        if (with->features == without->features) { // paths make nothing of it
+            assert_string_equal(with->text, without->text);
+            continue;
+        }
         const bool grows = (with->features & without->features) == without->features &&
-                           feature_scenes[i / 2].feature != FEATURE_ORTHOGRAPHIC; // the other camera goes
-        print_message("%-16s %9zu %9zu   (%zu, %zu)%s\n", feature_name(feature_scenes[i / 2].feature),
-                      without->reached_bytes, with->reached_bytes, without->idle_bytes, with->idle_bytes,
+                           shown_by(i) != FEATURE_ORTHOGRAPHIC; // the other camera goes
+        print_message("%-16s %9zu %9zu   (%zu, %zu)%s%s\n", feature_name(shown_by(i)), without->reached_bytes,
+                      with->reached_bytes, without->idle_bytes, with->idle_bytes, i < PROGRAMS / 2 ? "" : "  paths",
                       grows ? "" : "  instead of others");
         if (grows)
             assert_true(without->reached_bytes < with->reached_bytes);

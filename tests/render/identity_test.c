@@ -1,5 +1,5 @@
 // Same scene, same bytes: whatever the limit of memory, the crop, the number of threads, the shape of the
-// kernels and the run, on three scenes, one of them with few and with many samples, and on one of nothing
+// kernels and the run, on four scenes, one of them with few and with many samples, and on one of nothing
 // but meshes, that together have every feature.
 #include "meshes.h"
 #include "scenes.h"
@@ -7,7 +7,7 @@
 
 #include "render/plan.h"
 
-enum { SCENES = 5, SCENE_MESHES = 4 };
+enum { SCENES = 6, SCENE_MESHES = 4 };
 
 typedef struct Fixture {
     Device *device;
@@ -182,7 +182,7 @@ static void test_shapes(void **state)
     static const char *const shapes[] = {"4,32,1", "1,1,16", "8,32,1", "8,8,1", "16,32,1"};
     // Each program takes its time to compile, so not every scene sees every shape.
     static const bool seen[][SCENES] = {
-        {1, 0, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};
+        {1, 0, 1, 1, 0, 1}, {1, 1, 1, 1, 0, 1}, {1, 1, 1, 1, 0, 1}, {0, 0, 0, 1, 0, 1}, {1, 0, 1, 1, 0, 0}};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
         const RenderHow how = {.shape = shapes[i]};
         for (int k = 0; k < SCENES; k++) {
@@ -200,8 +200,8 @@ int main(void)
     Fixture f = {.device = test_device_open(0)};
     if (!f.device)
         return TEST_SKIP;
-    const char *const marked[SCENES] = {scene_glass, scene_toys, scene_studio, scene_glass};
-    const u32 samples[SCENES] = {4, 1, 2, 21, 1};
+    const char *const marked[SCENES] = {scene_glass, scene_toys, scene_studio, scene_glass, NULL, scene_hall};
+    const u32 samples[SCENES] = {4, 1, 2, 21, 1, 5};
     for (int k = 0; k < SCENES; k++) {
         f.layouts[k] = marked[k] ? layout_of_marked(marked[k]) : layout_of_meshes();
         f.layouts[k]->params.samples = samples[k];

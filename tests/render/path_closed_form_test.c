@@ -43,7 +43,8 @@ static void expect_plane(Device *device, Verdicts *verdicts, f64 x, f64 y, const
                          "plane { point 0 0 0 normal 0 0 1 material white }\n%s",
                          way->depth, x, y, x, y, scene);
     char *what = text_of("%s, by %s", name, way->name);
-    verdict_add(verdicts, what, estimate_text(device, text, way->sampling, 0), expected, 0.03);
+    verdict_add(verdicts, what, estimate_text(device, text, way->sampling, 0), expected,
+                0.03 * expected + 0.002);
     free(what);
     free(text);
 }
@@ -141,7 +142,7 @@ static void test_shining_box(void **state)
         const f64 expected = rho < 1 ? geometric_sum(rho, cases[i].depth) : cases[i].depth + 1.0;
         // Up to depth 3 nothing is left to chance.
         verdict_add(&verdicts, what, estimate_text(*state, text, LIGHT_SAMPLING_BOTH, 1), expected,
-                    cases[i].depth <= 3 ? 1e-5 : 0.02);
+                    cases[i].depth <= 3 ? 2e-6 * expected : 0.02 * expected);
         free(what);
         free(text);
     }
@@ -171,7 +172,7 @@ static void test_lamp_in_sphere(void **state)
         char *what = text_of("lamp of %g in albedo %g, depth %u, way %d", cases[i].radius, rho, cases[i].depth,
                              (int)cases[i].sampling);
         const f64 expected = 8 * rho * share * geometric_sum(rho * (1 - share), cases[i].depth);
-        verdict_add(&verdicts, what, estimate_text(*state, text, cases[i].sampling, 2), expected, 0.03);
+        verdict_add(&verdicts, what, estimate_text(*state, text, cases[i].sampling, 2), expected, 0.01 * expected);
         free(what);
         free(text);
     }

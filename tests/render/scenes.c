@@ -96,6 +96,43 @@ const char scene_studio[] =
     "instance cup { scale 1 1.5 0.75 rotate A(0 1 0) 20 translate P(1 0 2.25) material stone }\n"
     "instance cup { scale 0.75 rotate A(1 0 0) 160 translate P(-1.5 1.25 2) material gold }\n";
 
+const char scene_hall[] =
+    "image { size 92 72 samples 5 seed 2 filter gaussian }\n"
+    "camera { position P(1 2 6) look_at P(0 0.75 0) up D(0 1 0) fov 45 aperture ~0.0625 }\n"
+    "render { integrator path max_depth 7 }\n"
+    "background 0.125 0.1875 0.25\n"
+    "light directional { direction D(-0.5 -1 -0.25) intensity 0.25 }\n"
+    "light spot { position P(0 3 3) look_at P(0 0 0) intensity 0.75 inner 20 outer 50 }\n"
+    "light point { position P(-2 2.5 1) intensity 0.5 0.25 0.25 }\n"
+    "light point { position P(-1 2.5 -1) intensity 0.25 0.5 0.25 }\n"
+    "light point { position P(1 2.5 1) intensity 0.25 0.25 0.5 }\n"
+    "light point { position P(2 2.5 -1) intensity 0.5 0.5 0.25 }\n"
+    "light point { position P(0 2.5 2) intensity 0.25 0.5 0.5 }\n"
+    "light sphere { center P(-2.5 1.5 -1) radius ~0.25 radiance 6 5 4 }\n"
+    "light rectangle { corner P(1 3 -1) edge1 L(-0.5 0 1) edge2 L(0.75 -0.5 0.25) radiance 4 }\n"
+    "texture tiles checker { colors 0.75 0.25 scale ^1 ^1 }\n"
+    "texture stains checker { colors 0.5 0.75 0.625  0.75 0.375 0.25 scale 6 3 }\n"
+    "material floor phong { diffuse tiles reflect 0.125 }\n"
+    "material satin blinn_phong { diffuse 0.25 0.5 0.375 specular 0.375 shininess 24 }\n"
+    "material lacquer phong { diffuse 0.5 0.125 0.125 specular 0.25 shininess 80 }\n"
+    "material glass phong { diffuse 0 reflect 1 transmit 0.875 1 0.9375 fresnel on }\n"
+    "material gold pbr { base_color 0.875 0.625 0.25 metallic 1 roughness 0.25 }\n"
+    "material chrome pbr { base_color 0.75 metallic 1 roughness 0 }\n"
+    "material resin pbr { base_color stains roughness 0.125 transmit 0.75 }\n"
+    "material lamp phong { diffuse 0.5 emission 0.5 0.25 0.125 }\n"
+    "plane { point P(0 0 0) normal D(0 1 0) material floor }\n"
+    "plane { point P(0 0 -3) normal D(0 0 1) }\n"
+    "sphere { center P(-1.5 0.75 0) radius ~0.75 material satin }\n"
+    "sphere { center P(0 0.5 1.5) radius ~0.5 material glass }\n"
+    "sphere { center P(-0.5 1.75 -0.5) radius ~0.5 material resin }\n"
+    "box { center P(1.25 0.5 -0.5) size ~1 ~1 ~1 material chrome }\n"
+    "box { center P(2.5 0.25 0.5) size ~0.5 ~0.5 ~0.5 material lamp }\n"
+    "mesh { file \"vase.obj\" terminator on scale ~0.5 rotate A(0 0 1) 20 translate P(-0.5 0.25 2)\n"
+    "    material lacquer }\n"
+    "object cup { mesh { file \"vase.obj\" smooth on terminator on scale ~0.5 } }\n"
+    "instance cup { scale 1 1.5 0.75 rotate A(0 1 0) 20 translate P(1 0 2.25) material gold }\n"
+    "instance cup { scale 0.75 rotate A(1 0 0) 160 translate P(-1.5 1.25 2) material glass }\n";
+
 // A marked triple at *text, behind its letter and parenthesis; moves *text behind it.
 static Vec3 read_triple(const char **text)
 {

@@ -1,4 +1,4 @@
-// Three scenes that together use every feature, written so that they can be moved, scaled and mirrored.
+// Four scenes that together use every feature, written so that they can be moved, scaled and mirrored.
 #ifndef CLRT_TESTS_RENDER_SCENES_H
 #define CLRT_TESTS_RENDER_SCENES_H
 
@@ -24,5 +24,7 @@ extern const char scene_glass[];
 extern const char scene_toys[];
 // A lens, pbr materials.
 extern const char scene_studio[];
+// Paths among many lights.
+extern const char scene_hall[];
 
 #endif

@@ -25,9 +25,8 @@ void verdict_add(Verdicts *verdicts, const char *what, Estimate found, f64 expec
     // Where an estimate has no variance the rounding of floats is left.
     const f64 error = hypot(found.error, 1e-6 * fabs(expected) + 1e-12), z = (found.mean - expected) / error;
     print_message("%-52s %11.6g +- %7.1g, exact %11.6g, z %5.2f\n", what, found.mean, found.error, expected, z);
-    const f64 limit = most * (expected != 0 ? fabs(expected) : 1);
-    if (!(fabs(found.mean - expected) <= limit))
-        fail_msg("%s: %.9g is not within %.3g of %.9g", what, found.mean, limit, expected);
+    if (!(fabs(found.mean - expected) <= most))
+        fail_msg("%s: %.9g is not within %.3g of %.9g", what, found.mean, most, expected);
     if (verdicts->count++ == 0 || normal_p(z) < verdicts->smallest_p) {
         verdicts->smallest_p = normal_p(z);
         verdicts->z = z;

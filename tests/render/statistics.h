@@ -20,8 +20,8 @@ typedef struct Verdicts {
     char worst[96];     // what it is
 } Verdicts;
 
-// Compares an estimate with the expected value and prints both. `most`: how far they may be apart, relative to
-// what is expected (of 0: absolutely).
+// Compares an estimate with the expected value and prints both. `most`: how far they may be apart whatever the
+// variance, absolutely.
 void verdict_add(Verdicts *verdicts, const char *what, Estimate found, f64 expected, f64 most);
 // Fails the running test unless all estimates are within what chance allows.
 void verdicts_end(const Verdicts *verdicts);

@@ -111,8 +111,9 @@ def mesh(name, points, faces, properties):
     result = mi.Mesh(name, 3 * len(faces), len(faces), props=properties)
     parameters = mi.traverse(result)
     corners = [points[corner] for face in faces for corner in face]
-    parameters["vertex_positions"] = mi.Float([c for corner in corners for c in corner])
-    parameters["faces"] = mi.UInt32(list(range(3 * len(faces))))
+    values = {"vertex_positions": [c for corner in corners for c in corner], "faces": list(range(3 * len(faces)))}
+    for key, numbers in values.items():  # the scalar variants have arrays of another type
+        parameters[key] = type(parameters[key])(numbers)
     parameters.update()
     return result
 

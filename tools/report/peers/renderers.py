@@ -36,8 +36,9 @@ def run(command, what):
 
 def last_object(text, what):
     for line in reversed(text.splitlines()):
-        if line.startswith("{"):
-            return json.loads(line)
+        at = line.find('{"version"')  # behind the colours of a warning
+        if at >= 0:
+            return json.loads(line[at:])
     raise RenderError(f"{what}: it has not said how long it took")
 
 

@@ -174,6 +174,17 @@ def read(path):
     return scene
 
 
+def add_triangle(shapes, triangle):
+    """To the mesh of that material, so that no renderer has a mesh for each."""
+    for mesh in shapes:
+        if mesh["kind"] == "mesh" and mesh["material"] == triangle["material"]:
+            first = len(mesh["points"])
+            mesh["points"] += triangle["points"]
+            mesh["faces"].append((first, first + 1, first + 2))
+            return
+    shapes.append(triangle)
+
+
 def take(scene, head, properties, folder):
     given = dict(properties)
     if head[0] == "image":
@@ -196,5 +207,7 @@ def take(scene, head, properties, folder):
         scene["materials"][head[1]] = material(head[2], properties)
     elif head[0] == "light":
         scene["lights"].append(light(head[1], properties))
+    elif head[0] == "triangle":
+        add_triangle(scene["shapes"], shape("triangle", properties))
     elif head[0] not in ("output", "ambient"):
         scene["shapes"].append(shape(head[0], properties))
