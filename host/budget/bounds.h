@@ -17,6 +17,9 @@ typedef struct SceneBounds {
 
 // Whitted's integrator. With w the greatest total weight of the rays that follow a hit and L the greatest
 // radiance: L(d) = max(background, direct + w L(d - 1)); depth: w^(max_depth + 1) L(infinity), where w < 1.
+// Paths: a sample may weigh any amount. With w the greatest albedo, highlights, mirrors and transmission included, and
+// S the brightest that shines or that lights without size make of a surface: depth: w^(max_depth + 1) S / (1 - w),
+// where w < 1, which pbr never states. min_weight cuts off nothing.
 // Materials count where the layout, of the same scene, uses them. Textures must still have their bitmaps.
 SceneBounds scene_bounds(const Scene *scene, const Layout *layout);
 

@@ -125,12 +125,10 @@ OUTLINE void probe_shade(const Hierarchy *scene, const Shading *shading, global 
     const v3 color = hit_diffuse(&hit, shading);
     const Scatter scatter = scatter_make(&hit);
     vf lit = (vf)(0.0f);
-#if !HAS_PATH
     if (light_count > 0) {
         const LightSample light = punctual_sample(lights, hit.point);
         lit = shade_light(&hit, color, &light).x;
     }
-#endif
     store_column3(hit.point, out + PROBE_P * stride, stride);
     store_column3(hit.error, out + PROBE_ERROR * stride, stride);
     store_column3(v3_select(hit.inside, v3_neg(hit.ng), hit.ng), out + PROBE_NG * stride, stride);

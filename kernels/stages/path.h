@@ -171,28 +171,41 @@ OUTLINE vi path_shade_hits(const PathWave *w, const Slots *slots, vf t, v3 throu
     return flags;
 }
 
+// Paths that have met nothing take what the sky sends, and end; so do those that look for lights and meet something
+// else.
+OUTLINE void path_miss(const PathWave *w)
+{
+    const State *s = &w->s;
+    global const int *queue = s->ints + QUEUE * TILE_SLOTS;
+    for (uint i = GROUP_ITEM * LANES; i < w->count; i += GROUP * LANES) {
+        const Slots slots = slots_make(queue, i, w->count);
+        const vm found = state_load(s, RAY_T, &slots) < (vf)(INFINITY);
+        vm goes_on = found;
+#if HAS_ENVIRONMENT
+        if (!vm_all(found)) {
+            const v3 throughput = state_load3(s, THROUGHPUT, &slots), radiance = state_load3(s, RADIANCE, &slots);
+            const v3 sky = path_sky(w->shading, &w->settings, state_load3(s, RAY_DIR, &slots),
+                                    state_load(s, DENSITY, &slots));
+            state_store3(s, RADIANCE, &slots, v3_add(radiance, v3_mul(throughput, sky)), slots.valid & !found);
+        }
+#endif
+#if !HAS_AREA_LIGHTS
+        goes_on = goes_on & (state_load_int(s, DEPTH, &slots) <= (vi)((int)w->params->max_depth));
+#endif
+        state_store_int(s, FLAGS, &slots, goes_on ? (vi)(FLAG_NEXT) : (vi)(0), slots.valid);
+    }
+}
+
+// The rays of the queue, which all have met a surface.
 OUTLINE void path_shade(const PathWave *w)
 {
     const State *s = &w->s;
     global const int *queue = s->ints + QUEUE * TILE_SLOTS;
     for (uint i = GROUP_ITEM * LANES; i < w->count; i += GROUP * LANES) {
         const Slots slots = slots_make(queue, i, w->count);
-        const vf t = state_load(s, RAY_T, &slots);
-        const vm found = slots.valid & (t < (vf)(INFINITY));
-        const v3 throughput = state_load3(s, THROUGHPUT, &slots);
         v3 radiance = state_load3(s, RADIANCE, &slots);
-        vi flags = (vi)(0);
-#if HAS_ENVIRONMENT
-        if (!vm_all(found)) {
-            const v3 sky = path_sky(w->shading, &w->settings, state_load3(s, RAY_DIR, &slots),
-                                    state_load(s, DENSITY, &slots));
-            radiance = v3_select(found, radiance, v3_add(radiance, v3_mul(throughput, sky)));
-        }
-#endif
-        if (vm_any(found)) {
-            const vi shaded = path_shade_hits(w, &slots, t, throughput, &radiance, found);
-            flags = found ? shaded : flags;
-        }
+        const vi flags = path_shade_hits(w, &slots, state_load(s, RAY_T, &slots), state_load3(s, THROUGHPUT, &slots),
+                                         &radiance, slots.valid);
         state_store3(s, RADIANCE, &slots, radiance, slots.valid);
         state_store_int(s, FLAGS, &slots, flags, slots.valid);
     }
@@ -216,17 +229,17 @@ OUTLINE void path_finish(const State *s, uint count)
     }
 }
 
-// What a path takes along to its next ray.
-#define PATH_MOVED_REALS 13
-#define PATH_MOVED_INTS (5 + HAS_INSTANCES)
+// What a path takes along to its next stage.
+#define PATH_MOVED_REALS 14
+#define PATH_MOVED_INTS (6 + 2 * HAS_INSTANCES)
 constant int path_moved_reals[PATH_MOVED_REALS] = {
     RAY_ORG, RAY_ORG + 1, RAY_ORG + 2, RAY_DIR, RAY_DIR + 1, RAY_DIR + 2, THROUGHPUT, THROUGHPUT + 1, THROUGHPUT + 2,
-    RADIANCE, RADIANCE + 1, RADIANCE + 2, DENSITY,
+    RADIANCE, RADIANCE + 1, RADIANCE + 2, DENSITY, RAY_T,
 };
 constant int path_moved_ints[PATH_MOVED_INTS] = {
-    SELF, DEPTH, PATH, JOB, SAMPLE,
+    SELF, DEPTH, PATH, JOB, SAMPLE, PRIMITIVE,
 #if HAS_INSTANCES
-    SELF_INSTANCE,
+    SELF_INSTANCE, INSTANCE,
 #endif
 };
 
@@ -302,20 +315,27 @@ OUTLINE void path_film(PathWave *w, uint end)
     }
 }
 
-// One ray of every path of the wave.
+// One ray of every path of the wave. Those that end on the way make room at once, so that no vector is shaded for the
+// sake of a few of its lanes.
 OUTLINE void path_step(PathWave *w)
 {
     w->rays[RAYS_LANES] += (w->count + GROUP * LANES - 1) / (GROUP * LANES) * LANES;
-    intersect_closest(&w->s, w->scene, w->count);
-    STAGE_BARRIER();
-    path_shade(w);
-    STAGE_BARRIER();
+    for (uint stage = 0; stage < 2; stage++) {
+        if (stage == 0) {
+            intersect_closest(&w->s, w->scene, w->count);
+            STAGE_BARRIER();
+            path_miss(w);
+        } else {
+            path_shade(w);
 #if HAS_SHADOWS
-    intersect_shadow(&w->s, w->scene, w->count, &w->rays[RAYS_SHADOW]);
-    STAGE_BARRIER();
+            STAGE_BARRIER();
+            intersect_shadow(&w->s, w->scene, w->count, &w->rays[RAYS_SHADOW]);
 #endif
-    path_finish(&w->s, w->count);
-    path_advance(w);
+        }
+        STAGE_BARRIER();
+        path_finish(&w->s, w->count);
+        path_advance(w);
+    }
     path_film(w, path_first_round(w));
 }
 

@@ -302,7 +302,7 @@ def room(direction):
 
 
 def noon(direction):
-    """A cloudless sky of rings about the zenith, over grey ground; the sun is five degrees wide and has a glow about it.
+    """A cloudless sky of rings about the zenith, over grey ground; the sun, five degrees wide, has a glow about it.
 
     Rows are constant but for the glow, which leaves the run-length form little to store.
     """

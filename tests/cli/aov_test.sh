@@ -42,6 +42,15 @@ cp out.id.pfm first.id.pfm
 CLRT_SHAPE=1,1,16 expect 0 '' "$clrt" -q --aov id scene.txt out.png
 cmp out.id.pfm first.id.pfm || fail "another id with one lane"
 
+# First hits are those of any integrator.
+for name in albedo depth id normal position; do
+    cp out.$name.pfm first.$name.pfm
+done
+expect 0 '' "$clrt" -q --integrator path --aov depth,normal,position,albedo,id scene.txt out.png
+for name in albedo depth id normal position; do
+    cmp out.$name.pfm first.$name.pfm || fail "another $name with paths"
+done
+
 mkdir taken.depth.pfm
 expect 4 'taken.depth.pfm' "$clrt" -q --aov depth scene.txt taken.png
 finish

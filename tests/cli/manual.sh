@@ -1,7 +1,6 @@
 #!/bin/sh
 # manual.sh CLRT REPO: what the manual of the language and the scenes beside it promise.
 # - every ```scene block of REPO/scenes/README.md is a whole scene without errors;
-# - every ```scene-later block has no error but "not supported yet";
 # - every scene in REPO/scenes is one without errors;
 # - every scene has its row in the manual's table.
 # A block marked ```scene NAME is kept as NAME, so that blocks after it can include it; one marked
@@ -35,7 +34,7 @@ done
 awk -v folder="$folder" '
     block == "" && /^```/ {
         kind = substr($1, 4)
-        block = (kind == "scene" || kind == "scene-later" || kind == "file") ? "kept" : "other"
+        block = (kind == "scene" || kind == "file") ? "kept" : "other"
         start = NR
         if (block == "kept") {
             file = folder "/" (NF > 1 ? $2 : "line_" NR ".txt")
@@ -65,28 +64,12 @@ expect_clean() {
     fi
 }
 
-# expect_later NAME FILE: --check says "not supported yet", and no other error.
-expect_later() {
-    (cd "$folder" && "$clrt" --check "$2") > "$folder/output" 2>&1
-    status=$?
-    later=$(grep -c ': error: .*not supported yet' "$folder/output")
-    errors=$(grep -c ': error:' "$folder/output")
-    if [ $status -ne 1 ] || [ "$later" -eq 0 ] || [ "$errors" -ne "$later" ]; then
-        fail "$1: exit status $status, $errors errors, $later of them \"not supported yet\""
-        sed 's/^/    /' "$folder/output" >&2
-    fi
-}
-
 clean=0
-later_blocks=0
 while read -r kind line file; do
     case $kind in
         scene)
             clean=$((clean + 1))
             expect_clean "manual, line $line" "$file" ;;
-        scene-later)
-            later_blocks=$((later_blocks + 1))
-            expect_later "manual, line $line" "$file" ;;
         *)
             fail "manual, line $line: the block is not closed" ;;
     esac
@@ -104,5 +87,5 @@ for file in "$scenes"/*.txt; do
 done
 [ "$files" -ge 11 ] || fail "only $files scenes found in $scenes"
 
-echo "manual: $clean examples, $later_blocks of what is to come, $files scenes, $failures failures"
+echo "manual: $clean examples, $files scenes, $failures failures"
 [ "$failures" -eq 0 ]

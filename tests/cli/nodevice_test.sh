@@ -8,7 +8,7 @@ small_scene >scene.txt
 expect 0 '' "$clrt" --help
 grep -q '^Usage: clrt \[options\] SCENE OUT' stdout || fail "no usage text"
 for option in device list-devices json memory threads size samples seed depth crop math bits exposure tone-map check \
-    stats quiet verbose help version; do
+    stats quiet verbose help version clamp environment-lighting integrator sampling; do
     grep -q -e "--$option" stdout || fail "--help says nothing of --$option"
 done
 expect 0 '' "$clrt" --version

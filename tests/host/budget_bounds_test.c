@@ -176,6 +176,88 @@ static void what_a_limit_took(void **state)
     assert_null(strstr(text, "clamp"));
 }
 
+#define PATHS(depth) "image { samples 4 } background 0 render { integrator path max_depth " depth " min_weight 0.5 } "
+#define WALLS(material) \
+    "material m " material " plane { point 0 1 0 normal 0 -1 0 material m } " \
+    "plane { point 0 -1 0 normal 0 1 0 material m } "
+
+static f64 depth_bound(const char *text)
+{
+    const ErrorBudget budget = budget_of(text);
+    assert_true(budget.bounds.min_weight == 0); // whatever the scene says
+    assert_string_equal(budget.bounds.unbounded, "paths of any weight");
+    assert_true(isinf(budget.bounds.radiance[0]));
+    return budget.bounds.depth;
+}
+
+// Two parallel walls: of rho^k, the light after k times, what comes after max_depth is missing. It is so much where all
+// light stays between them, and no more anywhere.
+static void paths_between_walls(void **state)
+{
+    (void)state;
+    for (u32 depth = 0; depth <= 64; depth += 16) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "render { integrator path max_depth %u } " WALLS("phong { diffuse 0.25 0.5 0.75 emission 2 }"), depth);
+        is_about(depth_bound(text), 2 * pow(0.75, depth + 1) / 0.25);
+    }
+    // Mirrors, highlights and matte light are passed on together; a channel without light has none to pass on.
+    is_about(depth_bound(PATHS("2") WALLS("phong { diffuse 0.25 reflect 0.125 specular 0.125 emission 0 3 0 }")),
+             3 * pow(0.5, 3) / 0.5);
+    is_about(depth_bound(PATHS("0") WALLS("phong { diffuse 0.25 reflect 0.125 transmit 0.5 fresnel on emission 1 }")),
+             0.75 / 0.25);
+    // blinn_phong with n = 8: 16 (8 + 1/16) / (10 * 12) of its weight.
+    is_about(depth_bound(PATHS("0") WALLS("blinn_phong { diffuse 0 specular 0.5 shininess 8 emission 1 }")),
+             0.5375 / (1 - 0.5375));
+}
+
+static void paths_of_lights(void **state)
+{
+    (void)state;
+#define HALF WALLS("phong { diffuse 0.5 }")
+    const char *panels = "light rectangle { corner 0 0 0 edge1 1 0 0 edge2 0 0 1 radiance 3 } "
+                         "light sphere { center 5 0 0 radius 0.5 radiance 7 } ";
+    char text[1024];
+    snprintf(text, sizeof text, "%s%s", PATHS("1") HALF, panels);
+    is_about(depth_bound(text), 7 * 0.25 / 0.5);
+    // The sky is one more of what shines; what nothing hides adds up.
+    snprintf(text, sizeof text, "background 8 render { integrator path max_depth 1 } %s%s", HALF, panels);
+    is_about(depth_bound(text), 8 * 0.25 / 0.5);
+    snprintf(text, sizeof text, "background 8 render { integrator path max_depth 1 shadows off } %s%s", HALF, panels);
+    is_about(depth_bound(text), 18 * 0.25 / 0.5);
+    // Lights without size make of the surface what they make of it where it faces them.
+    is_about(depth_bound(PATHS("1") HALF "light directional { direction 0 -1 0 intensity 4 }"), 2 * 0.25 / 0.5);
+    is_about(depth_bound(PATHS("1") WALLS("phong { diffuse 0.25 specular 0.25 shininess 6 }")
+                             "light point { position 0 0 0 intensity 8 attenuation 2 0 0 }"),
+             (0.25 + 0.25 * 4) * 4 * 0.25 / 0.5);
+    is_about(depth_bound(PATHS("1") WALLS("blinn_phong { diffuse 0.25 specular 0.125 shininess 0 }")
+                             "light directional { direction 0 -1 0 intensity 4 }"),
+             (0.25 + 0.125) * 4 * 0.375 * 0.375 / 0.625);
+}
+
+static void paths_without_bound(void **state)
+{
+    (void)state;
+#define LIT "light directional { direction 0 -1 0 } "
+    assert_true(isinf(depth_bound(PATHS("9") LIT WALLS("phong { diffuse 0.5 specular 0.5 }"))));
+    assert_true(isinf(depth_bound(PATHS("9") LIT WALLS("pbr { base_color 0.5 }"))));
+    assert_true(isinf(depth_bound(PATHS("9") "light point { position 0 1 0 attenuation 0 0 1 } " HALF)));
+    // Nothing that shines, nothing that passes on, nothing that is met: nothing is missing.
+    assert_true(depth_bound(PATHS("0") WALLS("pbr { }")) == 0);
+    assert_true(depth_bound(PATHS("0") LIT WALLS("phong { diffuse 0 emission 5 }")) == 0);
+    assert_true(depth_bound(PATHS("0") LIT HALF "material unused pbr { emission 1 }") > 0);
+    const ErrorBudget empty = budget_of("background 3 render { integrator path }");
+    assert_true(empty.bounds.depth == 0 && !empty.bounds.unbounded);
+    // The total is what is left: the samples' and the bound.
+    const BudgetPool pool = {.pixels = 4, .radiance = 6};
+    const ErrorBudget whole = budget_clamped(PATHS("1") LIT HALF, &pool, 0);
+    is_about(whole.total, whole.sampling.rmse + 0.25);
+    // Negative weights of a filter may add up to more than 1.
+    const f64 lobes = depth_bound("image { samples 4 filter mitchell } background 0 render { integrator path "
+                                  "max_depth 1 } " LIT HALF);
+    assert_true(lobes > 0.25 * 1.01 && lobes < 0.25 * 2);
+}
+
 // A light that grows without limit is as bright as its nearest surface is near: 2, whatever the shape is.
 static void nearest_surfaces(void **state)
 {
@@ -212,6 +294,8 @@ int main(void)
         cmocka_unit_test(nothing_follows),  cmocka_unit_test(textures_and_channels),
         cmocka_unit_test(without_bound),    cmocka_unit_test(nearest_surfaces),
         cmocka_unit_test(limits_of_samples), cmocka_unit_test(what_a_limit_took),
+        cmocka_unit_test(paths_between_walls), cmocka_unit_test(paths_of_lights),
+        cmocka_unit_test(paths_without_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,7 +43,8 @@ static void compare(Device *device, FeatureSet features)
 static void programs_of_scenes(void **state)
 {
     static const Feature features[] = {FEATURE_PLANE,          FEATURE_CHECKER, FEATURE_CHECKER3D,
-                                       FEATURE_TRIANGLE_EXTRA, FEATURE_LIGHTS,  FEATURE_SAMPLES};
+                                       FEATURE_TRIANGLE_EXTRA, FEATURE_LIGHTS,  FEATURE_SAMPLES,
+                                       FEATURE_PATH};
     for (size_t i = 0; i < sizeof features / sizeof *features; i++)
         for (size_t k = 0; k < FEATURE_SCENE_COUNT; k++)
             if (feature_scenes[k].feature == features[i])
@@ -53,8 +54,12 @@ static void programs_of_scenes(void **state)
 
 static void least_and_largest_program(void **state)
 {
+    const FeatureSet all = feature_bit(FEATURE_COUNT) - 1;
+    const FeatureSet of_paths = feature_bit(FEATURE_PATH) | feature_bit(FEATURE_MANY_LIGHTS);
+    const FeatureSet of_others = feature_bit(FEATURE_BRANCHING) | feature_bit(FEATURE_PREFILTERED);
     compare(*state, 0);
-    compare(*state, feature_bit(FEATURE_COUNT) - 1);
+    compare(*state, all & ~of_paths);
+    compare(*state, all & ~of_others);
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-// Same scene, same bytes on every device that is here: pictures of the two scenes that have every feature,
+// Same scene, same bytes on every device that is here: pictures of the scenes that have every feature,
 // and the functions of kernels/base over a million inputs. Needs two devices.
 #include "scenes.h"
 #include "support.h"
@@ -9,7 +9,7 @@
 #include "selftest/agreed.h"
 #include "selftest/probe.h"
 
-enum { SCENES = 2, DEVICES_MAX = 8 };
+enum { SCENES = 4, DEVICES_MAX = 8 };
 
 typedef struct Fixture {
     u32 count; // devices that can be used, the first of which is what the others are held to
@@ -24,7 +24,7 @@ static const char *name_of(const Fixture *f, u32 d)
 static void test_pictures(void **state)
 {
     const Fixture *f = *state;
-    const char *const marked[SCENES] = {scene_glass, scene_toys};
+    const char *const marked[SCENES] = {scene_glass, scene_toys, scene_studio, scene_hall};
     for (int k = 0; k < SCENES; k++) {
         char *text = scene_under(marked[k], NULL);
         Layout *layout = layout_of(text);

@@ -1,5 +1,7 @@
 #include "statistics.h"
 
+enum { BLOCK = 10 }; // pixels
+
 static const f64 SIGNIFICANCE = 0.01, PASS_SHARE = 0.9975;
 
 f64 sidak_threshold(f64 n) { return -expm1(log1p(-SIGNIFICANCE) / n); }
@@ -79,23 +81,54 @@ static Difference difference_of(const f32 *a, const f32 *b, u32 count, size_t st
     return (Difference){mean, sqrt(squares / count / (count - 1)), size / count};
 }
 
-static Difference difference_of_means(const Seeds *a, const Seeds *b)
+typedef struct Part {
+    u32 left, top, width, height;
+} Part;
+
+// Of the means of all values of the part, one a picture.
+static Difference difference_of_means(const Seeds *a, const Seeds *b, Part part)
 {
     const size_t values = 3 * (size_t)a->width * a->height;
+    const f64 count = 3 * (f64)part.width * part.height;
     f32 *means = calloc(2 * (size_t)a->count, sizeof *means);
     assert_non_null(means);
     for (u32 k = 0; k < a->count; k++) {
         f64 sums[2] = {0, 0};
-        for (size_t i = 0; i < values; i++) {
-            sums[0] += (f64)a->rgb[k * values + i];
-            sums[1] += (f64)b->rgb[k * values + i];
+        for (u32 y = part.top; y < part.top + part.height; y++) {
+            const size_t row = k * values + 3 * (size_t)a->width * y;
+            for (size_t i = row + 3 * (size_t)part.left; i < row + 3 * (size_t)(part.left + part.width); i++) {
+                sums[0] += (f64)a->rgb[i];
+                sums[1] += (f64)b->rgb[i];
+            }
         }
-        means[k] = (f32)(sums[0] / (f64)values);
-        means[a->count + k] = (f32)(sums[1] / (f64)values);
+        means[k] = (f32)(sums[0] / count);
+        means[a->count + k] = (f32)(sums[1] / count);
     }
     const Difference difference = difference_of(means, means + a->count, a->count, 1);
     free(means);
     return difference;
+}
+
+// Student's t; the rounding of floats is left where pictures have no variance.
+static f64 student_t(const Difference *d) { return d->mean / hypot(d->error, 2e-6 * fabs(d->size) + 1e-12); }
+
+static void expect_same_blocks(const Seeds *a, const Seeds *b, const char *what)
+{
+    const u32 columns = (a->width + BLOCK - 1) / BLOCK, rows = (a->height + BLOCK - 1) / BLOCK;
+    const f64 threshold = sidak_threshold((f64)columns * rows);
+    f64 worst = 0;
+    for (u32 k = 0; k < columns * rows; k++) {
+        const u32 left = k % columns * BLOCK, top = k / columns * BLOCK;
+        const Part part = {left, top, a->width - left < BLOCK ? a->width - left : BLOCK,
+                           a->height - top < BLOCK ? a->height - top : BLOCK};
+        const Difference d = difference_of_means(a, b, part);
+        const f64 t = student_t(&d);
+        worst = fabs(t) > fabs(worst) ? t : worst;
+        if (!(student_p(t, a->count - 1) > threshold))
+            fail_msg("%s: the block at (%u, %u) has a mean of %.6g and %.3g more: t %.2f", what, left, top, d.size,
+                     d.mean, t);
+    }
+    print_message("%-40s %u blocks, the worst t is %.2f\n", what, columns * rows, worst);
 }
 
 void expect_same_mean(const Seeds *a, const Seeds *b, f64 most, const char *what)
@@ -109,7 +142,7 @@ void expect_same_mean(const Seeds *a, const Seeds *b, f64 most, const char *what
         bool good = true;
         for (size_t c = 3 * i; c < 3 * i + 3; c++) {
             const Difference d = difference_of(a->rgb + c, b->rgb + c, a->count, values);
-            const f64 t = d.mean / hypot(d.error, 2e-6 * fabs(d.size) + 1e-12), p = student_p(t, a->count - 1);
+            const f64 t = student_t(&d), p = student_p(t, a->count - 1);
             good = good && p > threshold;
             squares += t * t;
             worst = p < smallest ? i : worst;
@@ -117,14 +150,14 @@ void expect_same_mean(const Seeds *a, const Seeds *b, f64 most, const char *what
         }
         passed += good;
     }
-    const Difference mean = difference_of_means(a, b);
-    const f64 z = mean.mean / hypot(mean.error, 2e-6 * fabs(mean.size));
-    print_message("%-40s %zu of %zu pixels pass, least p %.1g at (%zu, %zu); t rms %.3f; mean %.5g, apart by %.2g: "
-                  "%.1g of it, z %.2f\n",
-                  what, passed, pixels, smallest, worst % a->width, worst / a->width, sqrt(squares / (f64)values),
-                  mean.size, mean.mean, mean.mean / mean.size, z);
+    const Difference mean = difference_of_means(a, b, (Part){0, 0, a->width, a->height});
+    const f64 t = student_t(&mean);
+    print_message("%-40s %zu of %zu pixels pass, least p %.1g at (%zu, %zu), t rms %.3f\n", what, passed, pixels,
+                  smallest, worst % a->width, worst / a->width, sqrt(squares / (f64)values));
+    print_message("%-40s mean %.5g, apart by %.2g of it: t %.2f\n", what, mean.size, mean.mean / mean.size, t);
     if (!((f64)passed >= PASS_SHARE * (f64)pixels))
         fail_msg("%s: %zu of %zu pixels differ", what, pixels - passed, pixels);
-    if (!(fabs(z) <= 4) || !(fabs(mean.mean) <= most * mean.size))
-        fail_msg("%s: the mean differs by %.3g of it, z %.2f", what, mean.mean / mean.size, z);
+    if (!(fabs(t) <= 4) || !(fabs(mean.mean) <= most * mean.size))
+        fail_msg("%s: the mean differs by %.3g of it, t %.2f", what, mean.mean / mean.size, t);
+    expect_same_blocks(a, b, what);
 }

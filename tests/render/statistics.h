@@ -39,8 +39,9 @@ Seeds seeds_render(Device *device, const Layout *layout, u32 first, u32 count);
 void seeds_destroy(Seeds *seeds);
 
 // Fails the running test unless a and b, as many pictures of the same size, have the same expected values: each pixel
-// by Student's t of the differences of pictures, where 99.75 % must pass (the rule of Mitsuba's tests of renders); the
-// mean over all pixels within four standard errors and relative to itself within `most`.
+// by Student's t of the differences of pictures, where 99.75 % must pass (the rule of Mitsuba's tests of renders), since
+// what is rare is not normal; the means of blocks of pixels; and that of all pixels within four standard errors, and
+// relative to itself within `most`.
 void expect_same_mean(const Seeds *a, const Seeds *b, f64 most, const char *what);
 
 #endif

@@ -1,4 +1,4 @@
-"""Renders a scene (scene.py, as JSON) with Blender's Cycles, on the CPU and without anything that trades bias for noise:
+"""Renders a scene (scene.py, as JSON) with Blender's Cycles, on the CPU, and nothing trades bias for noise:
 
     blender -b --factory-startup --python cycles_render.py -- JOB.json
 

@@ -137,7 +137,8 @@ def light(given):
     black = {"type": "diffuse", "reflectance": rgb([0, 0, 0])}
     emitter = {"type": "area", "radiance": rgb(given["radiance"])}
     if given["kind"] == "sphere":
-        return {"type": "sphere", "center": given["center"], "radius": given["radius"], "emitter": emitter, "bsdf": black}
+        return {"type": "sphere", "center": given["center"], "radius": given["radius"], "emitter": emitter,
+                "bsdf": black}
     corner, a, b = given["corner"], given["edge1"], given["edge2"]
     n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     length = math.sqrt(sum(c * c for c in n))

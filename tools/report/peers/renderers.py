@@ -1,10 +1,10 @@
-"""clrt, Mitsuba 3 and Cycles behind one call: render(spp, seed, out) gives the seconds that it took. Where they do not matter,
-timed=False spares what is done for them alone.
+"""clrt, Mitsuba 3 and Cycles behind one call: render(spp, seed, out) gives the seconds that it took.
 
-Each render is a process of its own. `render_s` are the seconds of rendering alone: those of clrt's stage `trace`, of
-Mitsuba's second call of mi.render (the first compiles), of Cycles without its synchronization. `cpu_s` are those of all
-cores together, which other work on the machine disturbs less: of the whole process for clrt, of the second render for
-Mitsuba, of Cycles with its synchronization. `wall_s` is all of the process, for Mitsuba without the second render.
+Where seconds do not matter, timed=False spares what is done for them alone. Each render is a process of its own.
+`render_s` are the seconds of rendering alone: those of clrt's stage `trace`, of Mitsuba's second call of mi.render (the
+first compiles), of Cycles without its synchronization. `cpu_s` are those of all cores together, which other work on
+the machine disturbs less: of the whole process for clrt, of the second render for Mitsuba, of Cycles with its
+synchronization. `wall_s` is all of the process, for Mitsuba without the second render.
 """
 import array
 import json

@@ -96,7 +96,8 @@ def material(kind, properties):
     if kind == "pbr":
         known(given, ("base_color", "metallic", "roughness"), kind)
         return {"kind": "pbr", "color": color(given.get("base_color", ["0.8"])),
-                "metallic": float(given.get("metallic", ["0"])[0]), "roughness": float(given.get("roughness", ["0.5"])[0])}
+                "metallic": float(given.get("metallic", ["0"])[0]),
+                "roughness": float(given.get("roughness", ["0.5"])[0])}
     known(given, ("diffuse", "reflect", "transmit", "ior", "fresnel"), kind)
     diffuse = color(given.get("diffuse", ["0.8"]))
     if "transmit" not in given and "reflect" not in given:
@@ -158,7 +159,8 @@ def light(kind, properties):
 def environment(properties, folder):
     given = dict(properties)
     known(given, ("file", "intensity"), "environment")
-    return {"file": os.path.join(folder, given["file"][0].strip('"')), "intensity": color(given.get("intensity", ["1"]))}
+    return {"file": os.path.join(folder, given["file"][0].strip('"')),
+            "intensity": color(given.get("intensity", ["1"]))}
 
 
 def read(path):
