@@ -230,18 +230,57 @@ OUTLINE void path_finish(const State *s, uint count)
 }
 
 // What a path takes along to its next stage.
-#define PATH_MOVED_REALS 14
-#define PATH_MOVED_INTS (6 + 2 * HAS_INSTANCES)
-constant int path_moved_reals[PATH_MOVED_REALS] = {
-    RAY_ORG, RAY_ORG + 1, RAY_ORG + 2, RAY_DIR, RAY_DIR + 1, RAY_DIR + 2, THROUGHPUT, THROUGHPUT + 1, THROUGHPUT + 2,
-    RADIANCE, RADIANCE + 1, RADIANCE + 2, DENSITY, RAY_T,
-};
-constant int path_moved_ints[PATH_MOVED_INTS] = {
-    SELF, DEPTH, PATH, JOB, SAMPLE, PRIMITIVE,
+typedef struct {
+    v3 org, dir, throughput, radiance;
+    vf density, t;
+    vi self, primitive, depth, path, job, sample;
 #if HAS_INSTANCES
-    SELF_INSTANCE, INSTANCE,
+    vi self_instance, instance;
 #endif
-};
+} PathCargo;
+
+static inline PathCargo path_take(const State *s, const Slots *slots)
+{
+    PathCargo p;
+    p.org = state_load3(s, RAY_ORG, slots);
+    p.dir = state_load3(s, RAY_DIR, slots);
+    p.throughput = state_load3(s, THROUGHPUT, slots);
+    p.radiance = state_load3(s, RADIANCE, slots);
+    p.density = state_load(s, DENSITY, slots);
+    p.t = state_load(s, RAY_T, slots);
+    p.self = state_load_int(s, SELF, slots);
+    p.primitive = state_load_int(s, PRIMITIVE, slots);
+    p.depth = state_load_int(s, DEPTH, slots);
+    p.path = state_load_int(s, PATH, slots);
+    p.job = state_load_int(s, JOB, slots);
+    p.sample = state_load_int(s, SAMPLE, slots);
+#if HAS_INSTANCES
+    p.self_instance = state_load_int(s, SELF_INSTANCE, slots);
+    p.instance = state_load_int(s, INSTANCE, slots);
+#endif
+    return p;
+}
+
+// Into LANES slots that follow each other.
+static inline void path_put(const State *s, const Slots *slots, const PathCargo *p)
+{
+    state_store3(s, RAY_ORG, slots, p->org, slots->valid);
+    state_store3(s, RAY_DIR, slots, p->dir, slots->valid);
+    state_store3(s, THROUGHPUT, slots, p->throughput, slots->valid);
+    state_store3(s, RADIANCE, slots, p->radiance, slots->valid);
+    state_store(s, DENSITY, slots, p->density, slots->valid);
+    state_store(s, RAY_T, slots, p->t, slots->valid);
+    state_store_int(s, SELF, slots, p->self, slots->valid);
+    state_store_int(s, PRIMITIVE, slots, p->primitive, slots->valid);
+    state_store_int(s, DEPTH, slots, p->depth, slots->valid);
+    state_store_int(s, PATH, slots, p->path, slots->valid);
+    state_store_int(s, JOB, slots, p->job, slots->valid);
+    state_store_int(s, SAMPLE, slots, p->sample, slots->valid);
+#if HAS_INSTANCES
+    state_store_int(s, SELF_INSTANCE, slots, p->self_instance, slots->valid);
+    state_store_int(s, INSTANCE, slots, p->instance, slots->valid);
+#endif
+}
 
 // Moves the paths that go on to the first slots, in their order: what follows each other is loaded and stored at once.
 // No slot is written before it has been read, since all move down.
@@ -255,18 +294,13 @@ OUTLINE void path_advance(PathWave *w)
         const uint i = base + GROUP_ITEM * LANES;
         const bool some = i < left;
         const Slots from = slots_make(next, some ? i : 0, left), to = slots_all(some ? i : 0);
-        const bool moves = some && from.first != to.first + (from.consecutive ? 0 : TILE_SLOTS);
-        vf reals[PATH_MOVED_REALS];
-        vi ints[PATH_MOVED_INTS];
-        for (int k = 0; k < PATH_MOVED_REALS && moves; k++)
-            reals[k] = state_load(s, path_moved_reals[k], &from);
-        for (int k = 0; k < PATH_MOVED_INTS && moves; k++)
-            ints[k] = state_load_int(s, path_moved_ints[k], &from);
+        const bool moves = some && !(from.consecutive && from.first == to.first);
+        PathCargo cargo;
+        if (moves)
+            cargo = path_take(s, &from);
         GROUP_BARRIER();
-        for (int k = 0; k < PATH_MOVED_REALS && moves; k++)
-            state_store(s, path_moved_reals[k], &to, reals[k], to.valid);
-        for (int k = 0; k < PATH_MOVED_INTS && moves; k++)
-            state_store_int(s, path_moved_ints[k], &to, ints[k], to.valid);
+        if (moves)
+            path_put(s, &to, &cargo);
     }
     w->count = left;
     GROUP_BARRIER();

@@ -62,6 +62,32 @@ static void test_exact_sets(void **state)
                     ball | feature_bit(FEATURE_REFLECT) | feature_bit(FEATURE_TRANSMIT));
 }
 
+// Paths: no ambient light, nothing parked, no light through surfaces but by rays; a background is an environment.
+static void test_paths(void **state)
+{
+    (void)state;
+    const FeatureSet ball = feature_bit(FEATURE_SURFACES) | feature_bit(FEATURE_BVH) | feature_bit(FEATURE_SPHERE) |
+                            feature_bit(FEATURE_PATH) | feature_bit(FEATURE_HIT_RANDOM);
+    const FeatureSet lit = ball | feature_bit(FEATURE_LIGHTS) | feature_bit(FEATURE_SHADOWS);
+    const FeatureSet sky = feature_bit(FEATURE_ENVIRONMENT) | feature_bit(FEATURE_ENVIRONMENT_LIGHT);
+    const FeatureSet clear = feature_bit(FEATURE_REFLECT) | feature_bit(FEATURE_TRANSMIT);
+    expect_features(RENDER_PATHS, 0);
+    expect_features("background 1 " RENDER_PATHS, feature_bit(FEATURE_BACKGROUND));
+    expect_features(SHAPE_BALL RENDER_PATHS, ball);
+    expect_features("render { integrator path ambient_occlusion 4 1 } " SHAPE_BALL, ball);
+    expect_features(SHAPE_BALL LIGHT_LAMP RENDER_PATHS, lit | feature_bit(FEATURE_POINT));
+    expect_features("background 1 " SHAPE_BALL RENDER_PATHS, lit | sky);
+    expect_features("render { integrator path environment_lighting prefiltered } " SHAPE_BALL ENVIRONMENT_SKY(""),
+                    lit | sky);
+    expect_features(MATERIAL_M("transmit 0.5 reflect 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP RENDER_PATHS,
+                    lit | feature_bit(FEATURE_POINT) | clear);
+    // An area light has one record, whatever its samples are, and a black one too: it stands in the way.
+    expect_features(SHAPE_BALL LIGHT_LAMPS LIGHT_LAMP LIGHT_LAMP LIGHT_LAMP
+                    "light sphere { center 3 4 0 radius 1 radiance 1 samples 64 }\n" RENDER_PATHS,
+                    lit | feature_bit(FEATURE_POINT) | feature_bit(FEATURE_SPHERE_LIGHT) |
+                        feature_bit(FEATURE_EMISSION));
+}
+
 // What is defined but never seen is not there.
 static void test_unused(void **state)
 {
@@ -152,7 +178,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_with_and_without), cmocka_unit_test(test_exact_sets),
         cmocka_unit_test(test_unused),           cmocka_unit_test(test_inherited),
-        cmocka_unit_test(test_options),
+        cmocka_unit_test(test_options),          cmocka_unit_test(test_paths),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

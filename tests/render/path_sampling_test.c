@@ -1,5 +1,6 @@
 // Next-event estimation alone, sampling of surfaces alone and both together have the same expected values: on all
-// lights with an area, the sky and every kind of material, three bounces deep.
+// lights with an area, the sky and every kind of material, three bounces deep; where shading normals are not those of
+// the surface as well.
 #include "statistics.h"
 
 enum { SEEDS = 32 };
@@ -12,10 +13,11 @@ static const char scene[] =
     "light sphere { center 2.5 2.5 1 radius 0.75 radiance 2 3 4 }\n"
     "light rectangle { corner -2 3 -1.5 edge1 1.5 0 0 edge2 0 0.5 1 radiance 3 2 2 }\n"
     "light rectangle { corner 4 0 -3 edge1 0 0 4 edge2 0 2 0 radiance 0.5 0.75 1 }\n"
+    "texture dents image { file \"dents.png\" filter nearest scale 8 4 }\n"
     "material floor phong { diffuse 0.75 0.625 0.5 }\n"
-    "material gloss phong { diffuse 0.25 0.375 0.5 specular 0.5 shininess 40 }\n"
+    "material gloss phong { diffuse 0.25 0.375 0.5 specular 0.5 shininess 40 normal_map dents }\n"
     "material satin blinn_phong { diffuse 0.5 0.25 0.25 specular 0.25 shininess 60 reflect 0.125 }\n"
-    "material copper pbr { base_color 0.875 0.5 0.25 metallic 1 roughness 0.25 }\n"
+    "material copper pbr { base_color 0.875 0.5 0.25 metallic 1 roughness 0.25 normal_map dents }\n"
     "material clay pbr { base_color 0.5 metallic 0.25 roughness 0.625 }\n"
     "material frost pbr { base_color 0.75 0.875 0.75 roughness 0.25 transmit 0.5 }\n"
     "material glass phong { diffuse 0 reflect 1 transmit 1 fresnel on }\n"
@@ -26,6 +28,7 @@ static const char scene[] =
     "sphere { center 1.5 1 -1 radius 1 material gloss }\n"
     "sphere { center 1.625 0.5 1.5 radius 0.5 material satin }\n"
     "sphere { center -0.75 0.375 2.25 radius 0.375 material frost }\n"
+    "mesh { file \"vase.obj\" smooth on scale 0.375 rotate x -20 translate 0.375 1 -0.25 material satin }\n"
     "environment { file \"sky.hdr\" intensity 0.5 rotate 40 }\n";
 
 static void test_techniques(void **state)
