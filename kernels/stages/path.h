@@ -70,20 +70,13 @@ static inline vm path_survives(v3 *throughput, vi depth, vf u)
 }
 
 // Puts the ray that follows the hit in flight; returns FLAG_NEXT where there is one.
-OUTLINE vi path_spawn(const PathWave *w, const Slots *slots, const Hit *hit, const PathParts *parts,
-#if HAS_REFLECT || HAS_TRANSMIT
-                      const Scatter *scatter,
-#endif
-                      v3 throughput, vi depth, vi instance, vf roulette, vm going)
+OUTLINE vi path_spawn(const PathWave *w, const Slots *slots, const Hit *hit, const PathParts *parts, v3 throughput,
+                      vi depth, vi instance, vf roulette, vm going)
 {
     const State *s = &w->s;
     NextRay next;
     const SamplePoint point = sample_point(hit_random_pair(&hit->random, PAIR_SCATTER));
-#if HAS_REFLECT || HAS_TRANSMIT
-    const PathDraw drawn = path_draw(hit, parts, scatter, point);
-#else
     const PathDraw drawn = path_draw(hit, parts, point);
-#endif
     const v3 side = v3_select(drawn.through, v3_neg(hit->ng), hit->ng);
     next.throughput = v3_mul(throughput, drawn.weight);
     const vm survives = path_survives(&next.throughput, depth + 1, roulette);
@@ -153,22 +146,12 @@ OUTLINE vi path_shade_hits(const PathWave *w, const Slots *slots, vf t, v3 throu
     if (!vm_any(going))
         return (vi)(0);
     const SamplePoint choice = sample_point(hit_random_pair(&hit.random, PAIR_CHOICE));
-#if HAS_REFLECT || HAS_TRANSMIT
-    const Scatter scatter = scatter_make(&hit);
-    const PathParts parts = path_parts(&hit, shading, &w->settings, &scatter, depth == most);
-#else
     const PathParts parts = path_parts(&hit, shading, &w->settings, depth == most);
-#endif
     vi flags = (vi)(0);
 #if HAS_LIGHTS
     flags = path_lights(w, slots, &hit, &parts, throughput, choice.x, radiance, going);
 #endif
-#if HAS_REFLECT || HAS_TRANSMIT
-    flags = flags | path_spawn(w, slots, &hit, &parts, &scatter, throughput, depth, instance, choice.y, going);
-#else
-    flags = flags | path_spawn(w, slots, &hit, &parts, throughput, depth, instance, choice.y, going);
-#endif
-    return flags;
+    return flags | path_spawn(w, slots, &hit, &parts, throughput, depth, instance, choice.y, going);
 }
 
 // Paths that have met nothing take what the sky sends, and end; so do those that look for lights and meet something

@@ -24,6 +24,9 @@ typedef struct {
     v3 diffuse;         // of phong and blinn_phong
     vf body, lobe;      // cosine-distributed; about the mirror direction
     vf mirror, through; // without a choice of direction
+#if HAS_REFLECT || HAS_TRANSMIT
+    Scatter scatter;    // their directions and weights
+#endif
 } PathParts;
 
 // The surface for light from one direction: the brdf, and the density over solid angle with which path_draw gives
@@ -61,11 +64,7 @@ static inline void path_parts_pbr(const Hit *hit, PathParts *p)
 
 // last: lanes where only light of area lights and the environment is looked for any more. Where lights are drawn for
 // that as well the lobe alone is followed, for which they would be drawn badly.
-OUTLINE PathParts path_parts(const Hit *hit, const Shading *shading, const PathSettings *path,
-#if HAS_REFLECT || HAS_TRANSMIT
-                             const Scatter *scatter,
-#endif
-                             vm last)
+OUTLINE PathParts path_parts(const Hit *hit, const Shading *shading, const PathSettings *path, vm last)
 {
     PathParts p;
 #if HAS_PBR
@@ -82,8 +81,9 @@ OUTLINE PathParts path_parts(const Hit *hit, const Shading *shading, const PathS
     path_parts_pbr(hit, &p);
 #endif
 #if HAS_REFLECT || HAS_TRANSMIT
-    p.mirror = last ? (vf)(0.0f) : brightness(scatter->reflect_weight);
-    p.through = last ? (vf)(0.0f) : brightness(scatter->transmit_weight);
+    p.scatter = scatter_make(hit);
+    p.mirror = last ? (vf)(0.0f) : brightness(p.scatter.reflect_weight);
+    p.through = last ? (vf)(0.0f) : brightness(p.scatter.transmit_weight);
 #endif
     if (path->techniques & LIGHTS_BY_LIGHTS)
         p.body = last ? (vf)(0.0f) : p.body;
@@ -196,11 +196,7 @@ typedef struct {
 
 // One coordinate of the point chooses the part and then, stretched, what is drawn of it: each part has points that
 // are spread as well as all are.
-OUTLINE PathDraw path_draw(const Hit *hit, const PathParts *p,
-#if HAS_REFLECT || HAS_TRANSMIT
-                           const Scatter *scatter,
-#endif
-                           SamplePoint point)
+OUTLINE PathDraw path_draw(const Hit *hit, const PathParts *p, SamplePoint point)
 {
     PathDraw d;
     const vf body_end = p->body, lobe_end = body_end + p->lobe;
@@ -238,9 +234,9 @@ OUTLINE PathDraw path_draw(const Hit *hit, const PathParts *p,
 #if HAS_REFLECT || HAS_TRANSMIT
     const vm mirror = !chosen & ((point.x < lobe_end + p->mirror) | (p->through == (vf)(0.0f)));
     const vm through = !chosen & !mirror;
-    const v3 mirrored = v3_scale(scatter->reflect_weight, (vf)(1.0f) / (mirror ? p->mirror : (vf)(1.0f)));
-    const v3 clear = v3_scale(scatter->transmit_weight, (vf)(1.0f) / (through ? p->through : (vf)(1.0f)));
-    d.dir = v3_select(mirror, scatter->reflect_dir, v3_select(through, scatter->transmit_dir, d.dir));
+    const v3 mirrored = v3_scale(p->scatter.reflect_weight, (vf)(1.0f) / (mirror ? p->mirror : (vf)(1.0f)));
+    const v3 clear = v3_scale(p->scatter.transmit_weight, (vf)(1.0f) / (through ? p->through : (vf)(1.0f)));
+    d.dir = v3_select(mirror, p->scatter.reflect_dir, v3_select(through, p->scatter.transmit_dir, d.dir));
     d.weight = v3_select(mirror, mirrored, v3_select(through, clear, d.weight));
     d.density = chosen ? d.density : (vf)(0.0f);
     d.through = through;

@@ -28,7 +28,7 @@ static const char scene[] =
     "sphere { center 1.5 1 -1 radius 1 material gloss }\n"
     "sphere { center 1.625 0.5 1.5 radius 0.5 material satin }\n"
     "sphere { center -0.75 0.375 2.25 radius 0.375 material frost }\n"
-    "mesh { file \"vase.obj\" smooth on scale 0.375 rotate x -20 translate 0.375 1 -0.25 material satin }\n"
+    "mesh { file \"vase.obj\" smooth on scale 0.75 rotate x -20 translate 0.125 1 -1.5 material satin }\n"
     "environment { file \"sky.hdr\" intensity 0.5 rotate 40 }\n";
 
 static void test_techniques(void **state)
