@@ -1,5 +1,5 @@
-// The table by which paths draw lights: shares that are 1 together, aliases that give each light just its share, and the
-// order of lights that the kernels count on.
+// The table by which paths draw lights: shares that are 1 together, aliases that give each light just its
+// share, and the order of lights that the kernels count on.
 #include "layout_fixture.h"
 
 static char scene_text[65536];
@@ -9,7 +9,8 @@ static Layout *layout_of_lights(u32 points, const char *more)
 {
     size_t used = (size_t)snprintf(scene_text, sizeof scene_text,
                                    "render { integrator path }\nsphere { center 0 0 -5 radius 2 }\n%s"
-                                   "light sphere { center 0 9 0 radius 1 radiance 3 }\n", more);
+                                   "light sphere { center 0 9 0 radius 1 radiance 3 }\n",
+                                   more);
     for (u32 i = 0; i < points; i++)
         used += (size_t)snprintf(scene_text + used, sizeof scene_text - used,
                                  "light point { position %u 4 0 intensity %u }\n", i, i + 1);
@@ -18,7 +19,8 @@ static Layout *layout_of_lights(u32 points, const char *more)
     return layout_good(scene_text);
 }
 
-// What the table gives: the chance of each light where an entry is uniform, and a number below `keep` keeps it.
+// What the table gives: the chance of each light where an entry is uniform, and a number below `keep` keeps
+// it.
 static void expect_shares(const Layout *layout)
 {
     const u32 count = layout->light_count;
@@ -35,7 +37,8 @@ static void expect_shares(const Layout *layout)
         worst = fmax(worst, fabs(chances[i] - (f64)layout->light_table[i].share) * count);
     assert_true(fabs(sum - 1) < 1e-6);
     if (!(worst <= 1e-6))
-        fail_msg("of %u lights one is drawn %.3g / %u more or less often than its share", count, worst, count);
+        fail_msg("of %u lights one is drawn %.3g / %u more or less often than its share", count, worst,
+                 count);
 }
 
 static void test_few_lights(void **state)
@@ -77,7 +80,8 @@ static void test_extremes(void **state)
         least = fmin(least, (f64)layout->light_table[i].share);
         most = fmax(most, (f64)layout->light_table[i].share);
     }
-    assert_true(most > 0.9 && least >= 0.09 / layout->light_count); // a weak light near to something is found there
+    assert_true(most > 0.9 &&
+                least >= 0.09 / layout->light_count); // a weak light near to something is found there
     layout_destroy(layout);
     char text[2048] = "render { integrator path }\nsphere { center 0 0 -5 radius 2 }\n";
     for (u32 i = 0; i < 12; i++)
@@ -106,7 +110,8 @@ static void test_order(void **state)
     for (u32 i = 0; i < 2; i++) {
         const LightRecord *light = &layout->lights[i];
         const MaterialRecord *material = &layout->materials[layout->path.area_materials + i];
-        assert_true(light->surface >= 0 && layout->infos[light->surface].material == layout->path.area_materials + i);
+        assert_true(light->surface >= 0 &&
+                    layout->infos[light->surface].material == layout->path.area_materials + i);
         assert_true((material->flags & MATERIAL_ONE_SIDED) != 0);
         assert_true(material->emission[0] == light->intensity.x);
     }

@@ -18,7 +18,8 @@ static Vec3 direction_about_y(f64 cosine, f64 turn)
     return (Vec3){sine * cos(turn), cosine, sine * sin(turn)};
 }
 
-// (n + 2) / 2pi cos^n about the mirrored eye, by directions of density (n + 1) / 2pi cos^n. All of n = 0 is 1 / pi.
+// (n + 2) / 2pi cos^n about the mirrored eye, by directions of density (n + 1) / 2pi cos^n. All of n = 0 is 1
+// / pi.
 static f64 phong_albedo(f64 n, f64 cosine)
 {
     if (n == 0)
@@ -35,8 +36,8 @@ static f64 phong_albedo(f64 n, f64 cosine)
     return (n + 2) / (n + 1) * sum / RINGS / SPOKES;
 }
 
-// (n + 8) / 8pi cos^n of the normal and the vector half-way, by those of density (n + 1) / 2pi cos^n: an element of
-// directions is 4 V.H of theirs.
+// (n + 8) / 8pi cos^n of the normal and the vector half-way, by those of density (n + 1) / 2pi cos^n: an
+// element of directions is 4 V.H of theirs.
 static f64 blinn_albedo(f64 n, f64 cosine)
 {
     const Vec3 eye = eye_at(cosine);
@@ -54,7 +55,8 @@ static f64 blinn_albedo(f64 n, f64 cosine)
 
 static f64 schlick(f64 f0, f64 cosine) { return f0 + (1 - f0) * pow(1 - cosine, 5); }
 
-// The lobe by normals of the distribution, whose tail is seen by steps that shrink towards it: the part beyond s^4.
+// The lobe by normals of the distribution, whose tail is seen by steps that shrink towards it: the part
+// beyond s^4.
 static f64 lobe_albedo(f64 roughness, f64 f0, f64 cosine)
 {
     const Vec3 eye = eye_at(cosine);
@@ -67,7 +69,8 @@ static f64 lobe_albedo(f64 roughness, f64 f0, f64 cosine)
             const f64 vh = vec_dot(eye, h), nl = 2 * vh * h.y - eye.y;
             if (nl <= 0 || vh <= 0)
                 continue;
-            const f64 masking = nl * sqrt(a2 + (1 - a2) * cosine * cosine) + cosine * sqrt(a2 + (1 - a2) * nl * nl);
+            const f64 masking =
+                nl * sqrt(a2 + (1 - a2) * cosine * cosine) + cosine * sqrt(a2 + (1 - a2) * nl * nl);
             sum += schlick(f0, vh) * 0.5 / masking * nl * 4 * vh / hy * 4 * beyond / s;
         }
     }
@@ -113,7 +116,7 @@ f64 matter_albedo(const Matter *m, f64 cosine)
     if (strcmp(m->kind, "pbr") == 0)
         return pbr_albedo(m, cosine);
     const f64 boundary = dielectric_reflectance(cosine, m->ior);
-    const f64 highlight = m->specular <= 0                   ? 0
+    const f64 highlight = m->specular <= 0                ? 0
                           : strcmp(m->kind, "phong") == 0 ? phong_albedo(m->shininess, cosine)
                                                           : blinn_albedo(m->shininess, cosine);
     const bool total = boundary >= 1 && m->transmit > 0;
@@ -126,11 +129,13 @@ f64 matter_albedo(const Matter *m, f64 cosine)
 void matter_append(char **text, const char *name, const Matter *m)
 {
     if (strcmp(m->kind, "pbr") == 0)
-        text_append(text, "material %s pbr { base_color %.9g metallic %.9g roughness %.9g transmit %.9g ior %.9g }\n",
-                    name, m->diffuse, m->metallic, m->roughness, m->transmit, m->ior);
+        text_append(
+            text, "material %s pbr { base_color %.9g metallic %.9g roughness %.9g transmit %.9g ior %.9g }\n",
+            name, m->diffuse, m->metallic, m->roughness, m->transmit, m->ior);
     else
-        text_append(text, "material %s %s { diffuse %.9g specular %.9g shininess %.9g reflect %.9g transmit %.9g "
-                          "ior %.9g fresnel %s }\n",
+        text_append(text,
+                    "material %s %s { diffuse %.9g specular %.9g shininess %.9g reflect %.9g transmit %.9g "
+                    "ior %.9g fresnel %s }\n",
                     name, m->kind, m->diffuse, m->specular, m->shininess, m->reflect, m->transmit, m->ior,
                     m->fresnel ? "on" : "off");
 }

@@ -1,4 +1,5 @@
-// How much of light 1 from everywhere a material sends to the eye, summed in double from the scene language's words.
+// How much of light 1 from everywhere a material sends to the eye, summed in double from the scene language's
+// words.
 #ifndef CLRT_TESTS_RENDER_BRDF_H
 #define CLRT_TESTS_RENDER_BRDF_H
 
@@ -6,7 +7,7 @@
 
 // A grey material. cosine: of the angle between normal and eye.
 typedef struct Matter {
-    const char *kind; // as scene files have it
+    const char *kind;                                         // as scene files have it
     f64 diffuse, specular, shininess, reflect, transmit, ior; // base_color is diffuse
     bool fresnel;
     f64 metallic, roughness;

@@ -1,5 +1,6 @@
-// The path integrator against closed forms: light of spheres, rectangles and the sky on a plane by each way of looking
-// for it, and light between the walls of closed rooms. Pixels of a picture are independent estimates of one number.
+// The path integrator against closed forms: light of spheres, rectangles and the sky on a plane by each way
+// of looking for it, and light between the walls of closed rooms. Pixels of a picture are independent
+// estimates of one number.
 #include "irradiance.h"
 #include "statistics.h"
 
@@ -18,9 +19,11 @@ typedef struct Way {
     const char *name;
 } Way;
 
-static const Way ways[] = { { LIGHT_SAMPLING_BOTH, 2, "both" },         { LIGHT_SAMPLING_LIGHTS, 2, "lights" },
-                            { LIGHT_SAMPLING_SURFACES, 2, "surfaces" }, { LIGHT_SAMPLING_BOTH, 0, "both, depth 0" },
-                            { LIGHT_SAMPLING_SURFACES, 0, "surfaces, depth 0" } };
+static const Way ways[] = {{LIGHT_SAMPLING_BOTH, 2, "both"},
+                           {LIGHT_SAMPLING_LIGHTS, 2, "lights"},
+                           {LIGHT_SAMPLING_SURFACES, 2, "surfaces"},
+                           {LIGHT_SAMPLING_BOTH, 0, "both, depth 0"},
+                           {LIGHT_SAMPLING_SURFACES, 0, "surfaces, depth 0"}};
 enum { WAYS = sizeof ways / sizeof *ways };
 
 static Estimate estimate_text(Device *device, const char *text, LightSampling sampling, u32 channel)
@@ -55,16 +58,17 @@ static void test_rectangles(void **state)
         Vec3 corner, edge1, edge2;
         f64 x, y;
     } cases[] = {
-        { { -1, -1, 2 }, { 0, 2, 0 }, { 2, 0, 0 }, 0, 0 },
-        { { -1, -1, 0.1 }, { 0, 2, 0 }, { 2, 0, 0 }, 0.3, 0.2 },
-        { { -1, -1, 0.5 }, { 0, 2, 0 }, { 2, 0, 0 }, 1.5, 0.2 },
-        { { 1, -1, -1 }, { 0.5, 0, 3 }, { 0, 2, 0 }, 0, 0.5 },
-        { { -500, -300, 400 }, { 0, 700, 0 }, { 900, 50, 80 }, 10, 20 },
-        { { -1, -1, 2 }, { 2, 0, 0 }, { 0, 2, 0 }, 0, 0 }, // shines upward
+        {{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, 0, 0},
+        {{-1, -1, 0.1}, {0, 2, 0}, {2, 0, 0}, 0.3, 0.2},
+        {{-1, -1, 0.5}, {0, 2, 0}, {2, 0, 0}, 1.5, 0.2},
+        {{1, -1, -1}, {0.5, 0, 3}, {0, 2, 0}, 0, 0.5},
+        {{-500, -300, 400}, {0, 700, 0}, {900, 50, 80}, 10, 20},
+        {{-1, -1, 2}, {2, 0, 0}, {0, 2, 0}, 0, 0}, // shines upward
     };
     Verdicts verdicts = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const Vec3 a = cases[i].corner, b = cases[i].edge1, c = cases[i].edge2, p = {cases[i].x, cases[i].y, 0};
+        const Vec3 a = cases[i].corner, b = cases[i].edge1, c = cases[i].edge2,
+                   p = {cases[i].x, cases[i].y, 0};
         const bool behind = vec_dot(vec_cross(b, c), vec_sub(p, a)) <= 0;
         const Polygon light = {{a, vec_add(a, b), vec_add(a, vec_add(b, c)), vec_add(a, c)}, 4};
         char *scene = text_of("light rectangle { corner %.17g %.17g %.17g edge1 %.17g %.17g %.17g "
@@ -83,13 +87,16 @@ static void test_rectangles(void **state)
 // Above the point it is pi L (r / d)^2; elsewhere it is summed, where the horizon cuts it off as well.
 static void test_spheres(void **state)
 {
-    static const f64 cases[][3] = {{0, 2, 1}, {3, 1, 0.5}, {3, 0.25, 1}, {2, -0.5, 1}, {0, 1.001, 1}, {1, 1.5, 1.8}};
+    static const f64 cases[][3] = {{0, 2, 1},    {3, 1, 0.5},   {3, 0.25, 1},
+                                   {2, -0.5, 1}, {0, 1.001, 1}, {1, 1.5, 1.8}};
     Verdicts verdicts = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const f64 x = cases[i][0], z = cases[i][1], radius = cases[i][2], distance = hypot(x, z);
-        char *scene = text_of("light sphere { center %.17g 0 %.17g radius %.17g radiance 2 }\n" ELSEWHERE, x, z, radius);
+        char *scene = text_of("light sphere { center %.17g 0 %.17g radius %.17g radiance 2 }\n" ELSEWHERE, x,
+                              z, radius);
         char *name = text_of("sphere of %g at %g %g", radius, x, z);
-        const f64 summed = 2 * sphere_irradiance(distance > radius ? asin(radius / distance) : 0, acos(z / distance)) / pi;
+        const f64 summed =
+            2 * sphere_irradiance(distance > radius ? asin(radius / distance) : 0, acos(z / distance)) / pi;
         const f64 expected = x == 0 ? 2 * pow(radius / distance, 2) : summed;
         for (int k = i == 0 ? 0 : 2 * ((int)i % 2); k < (i == 0 ? WAYS : 2 * ((int)i % 2) + 2); k++)
             expect_plane(*state, &verdicts, 0, 0, &ways[k], scene, name, expected);
@@ -107,17 +114,22 @@ static void test_sky(void **state)
     const f64 share = polygon_irradiance(light, (Vec3){0.5, 0, 0}) / pi;
     for (int k = 0; k < WAYS; k++) {
         expect_plane(*state, &verdicts, 0, 0, &ways[k], "background 1\n" ELSEWHERE, "sky", 1);
-        expect_plane(*state, &verdicts, 0.5, 0, &ways[k],
-                     "background 1\nlight rectangle { corner -1 -1 2 edge1 0 2 0 edge2 2 0 0 radiance 3 }\n" ELSEWHERE,
-                     "sky and rectangle", 1 + 2 * share);
+        expect_plane(
+            *state, &verdicts, 0.5, 0, &ways[k],
+            "background 1\nlight rectangle { corner -1 -1 2 edge1 0 2 0 edge2 2 0 0 radiance 3 }\n" ELSEWHERE,
+            "sky and rectangle", 1 + 2 * share);
     }
-    char *text = text_of("image { size 32 32 samples 16 }\nrender { integrator path max_depth 3 }\nbackground 2 1 0.5\n"
-                         "camera { position 1 1 3 look_at 0 0 0 orthographic 1e-6 }\n"
-                         "material paint phong { diffuse 0.75 0.5 0.25 }\n"
-                         "plane { point 0 0 0 normal 0 0 1 material paint }\n" ELSEWHERE);
+    char *text = text_of(
+        "image { size 32 32 samples 16 }\nrender { integrator path max_depth 3 }\nbackground 2 1 0.5\n"
+        "camera { position 1 1 3 look_at 0 0 0 orthographic 1e-6 }\n"
+        "material paint phong { diffuse 0.75 0.5 0.25 }\n"
+        "plane { point 0 0 0 normal 0 0 1 material paint }\n" ELSEWHERE);
     for (u32 c = 0; c < 3; c++)
         verdict_add(&verdicts, "sky on paint", estimate_text(*state, text, LIGHT_SAMPLING_BOTH, c),
-                    c == 0 ? 1.5 : c == 1 ? 0.5 : 0.125, 1e-3);
+                    c == 0   ? 1.5
+                    : c == 1 ? 0.5
+                             : 0.125,
+                    1e-3);
     free(text);
     verdicts_end(&verdicts);
 }
@@ -130,14 +142,16 @@ static void test_shining_box(void **state)
     static const struct {
         f64 albedo;
         u32 depth;
-    } cases[] = {{0.5, 0}, {0.5, 1}, {0.5, 3}, {0.5, 64}, {0.9, 3}, {0.9, 12}, {0.9, 64}, {1, 5}, {1, 64}, {0.02, 9}};
+    } cases[] = {{0.5, 0},  {0.5, 1},  {0.5, 3}, {0.5, 64}, {0.9, 3},
+                 {0.9, 12}, {0.9, 64}, {1, 5},   {1, 64},   {0.02, 9}};
     Verdicts verdicts = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const f64 rho = cases[i].albedo;
         char *text = text_of("image { size 32 32 samples 16 }\nrender { integrator path max_depth %u }\n"
                              "camera { position 0.25 0.5 0 look_at 0.5 0.25 -1 orthographic 1 }\n"
                              "material wall phong { diffuse %.9g emission 1 }\n"
-                             "box { min -1 -1 -1 max 1 1 1 material wall }\n" ELSEWHERE, cases[i].depth, rho);
+                             "box { min -1 -1 -1 max 1 1 1 material wall }\n" ELSEWHERE,
+                             cases[i].depth, rho);
         char *what = text_of("shining box, albedo %g, depth %u", rho, cases[i].depth);
         const f64 expected = rho < 1 ? geometric_sum(rho, cases[i].depth) : cases[i].depth + 1.0;
         // Up to depth 3 nothing is left to chance.
@@ -149,8 +163,8 @@ static void test_shining_box(void **state)
     verdicts_end(&verdicts);
 }
 
-// A sphere of radius 2 and albedo rho about a lamp of radius r, which swallows what it gets: the share (r / 2)^2 of what
-// leaves the wall.
+// A sphere of radius 2 and albedo rho about a lamp of radius r, which swallows what it gets: the share (r /
+// 2)^2 of what leaves the wall.
 static void test_lamp_in_sphere(void **state)
 {
     static const struct {
@@ -164,15 +178,17 @@ static void test_lamp_in_sphere(void **state)
     Verdicts verdicts = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const f64 share = pow(cases[i].radius / 2, 2), rho = cases[i].albedo;
-        char *text = text_of("image { size 32 32 samples 64 }\nrender { integrator path max_depth %u }\n"
-                             "camera { position 0.5 1.75 0 look_at 0.5 2 0 up 0 0 1 orthographic 0.25 }\n"
-                             "material wall phong { diffuse %.9g }\nsphere { center 0 0 0 radius 2 material wall }\n"
-                             "light sphere { center 0 0 0 radius %.17g radiance 8 }\n" ELSEWHERE,
-                             cases[i].depth, rho, cases[i].radius);
-        char *what = text_of("lamp of %g in albedo %g, depth %u, way %d", cases[i].radius, rho, cases[i].depth,
-                             (int)cases[i].sampling);
+        char *text =
+            text_of("image { size 32 32 samples 64 }\nrender { integrator path max_depth %u }\n"
+                    "camera { position 0.5 1.75 0 look_at 0.5 2 0 up 0 0 1 orthographic 0.25 }\n"
+                    "material wall phong { diffuse %.9g }\nsphere { center 0 0 0 radius 2 material wall }\n"
+                    "light sphere { center 0 0 0 radius %.17g radiance 8 }\n" ELSEWHERE,
+                    cases[i].depth, rho, cases[i].radius);
+        char *what = text_of("lamp of %g in albedo %g, depth %u, way %d", cases[i].radius, rho,
+                             cases[i].depth, (int)cases[i].sampling);
         const f64 expected = 8 * rho * share * geometric_sum(rho * (1 - share), cases[i].depth);
-        verdict_add(&verdicts, what, estimate_text(*state, text, cases[i].sampling, 2), expected, 0.01 * expected);
+        verdict_add(&verdicts, what, estimate_text(*state, text, cases[i].sampling, 2), expected,
+                    0.01 * expected);
         free(what);
         free(text);
     }
@@ -185,8 +201,10 @@ int main(void)
     if (!device)
         return TEST_SKIP;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(test_rectangles, device),     cmocka_unit_test_prestate(test_spheres, device),
-        cmocka_unit_test_prestate(test_sky, device),            cmocka_unit_test_prestate(test_shining_box, device),
+        cmocka_unit_test_prestate(test_rectangles, device),
+        cmocka_unit_test_prestate(test_spheres, device),
+        cmocka_unit_test_prestate(test_sky, device),
+        cmocka_unit_test_prestate(test_shining_box, device),
         cmocka_unit_test_prestate(test_lamp_in_sphere, device),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
-// Paths by other ways through the kernels, the same bytes: where camera rays take the slots of paths that have ended,
-// nothing tells which slot, lane, tile, band or launch a sample was in. (Of all features together: identity_test.c.)
+// Paths by other ways through the kernels, the same bytes: where camera rays take the slots of paths that
+// have ended, nothing tells which slot, lane, tile, band or launch a sample was in. (Of all features
+// together: identity_test.c.)
 #include "support.h"
 
 #include "render/plan.h"
@@ -17,7 +18,8 @@ static const char den[] =
     "material glass phong { diffuse 0 reflect 1 transmit 0.875 1 0.9375 fresnel on }\n"
     "material copper pbr { base_color 0.875 0.5 0.25 metallic 1 roughness 0.25 }\n"
     "plane { point 0 0 0 normal 0 1 0 material floor }\n"
-    "object things { sphere { center 0 0.5 0 radius 0.5 } sphere { center 0.5 0.25 1 radius 0.25 material glass } }\n"
+    "object things { sphere { center 0 0.5 0 radius 0.5 }\n"
+    "    sphere { center 0.5 0.25 1 radius 0.25 material glass } }\n"
     "instance things { rotate y 20 translate -1 0 0 material copper }\n"
     "instance things { scale 1 1.5 0.75 translate 0.75 0 0.5 material floor }\n";
 
@@ -127,8 +129,11 @@ static void test_restart(void **state)
     assert_memory_equal(both + values, f->picture.rgb, values * sizeof(f32));
     assert_true(memcmp(both, both + values, values * sizeof(f32)) != 0);
     free(both);
-    const RenderJob job = {.layout = f->layout, .device = f->device, .width = f->picture.width,
-                           .height = f->picture.height, .memory_limit = least_memory(f)}; // several launches
+    const RenderJob job = {.layout = f->layout,
+                           .device = f->device,
+                           .width = f->picture.width,
+                           .height = f->picture.height,
+                           .memory_limit = least_memory(f)}; // several launches
     Error error = {0};
     RenderRows rows = {0};
     Render *render = render_create(&job, &error);

@@ -1,6 +1,6 @@
-// Next-event estimation alone, sampling of surfaces alone and both together have the same expected values: on all
-// lights with an area, the sky and every kind of material, three bounces deep; where shading normals are not those of
-// the surface as well.
+// Next-event estimation alone, sampling of surfaces alone and both together have the same expected values: on
+// all lights with an area, the sky and every kind of material, three bounces deep; where shading normals are
+// not those of the surface as well.
 #include "statistics.h"
 
 enum { SEEDS = 32 };
@@ -39,8 +39,10 @@ static void test_techniques(void **state)
         seeds[k] = seeds_render(*state, layout, 1 + SEEDS * (u32)k, SEEDS);
         layout_destroy(layout);
     }
-    expect_same_mean(&seeds[LIGHT_SAMPLING_BOTH], &seeds[LIGHT_SAMPLING_LIGHTS], 2e-3, "both, and lights alone");
-    expect_same_mean(&seeds[LIGHT_SAMPLING_BOTH], &seeds[LIGHT_SAMPLING_SURFACES], 4e-3, "both, and surfaces alone");
+    expect_same_mean(&seeds[LIGHT_SAMPLING_BOTH], &seeds[LIGHT_SAMPLING_LIGHTS], 2e-3,
+                     "both, and lights alone");
+    expect_same_mean(&seeds[LIGHT_SAMPLING_BOTH], &seeds[LIGHT_SAMPLING_SURFACES], 4e-3,
+                     "both, and surfaces alone");
     for (int k = 0; k < 3; k++)
         seeds_destroy(&seeds[k]);
 }

@@ -26,7 +26,8 @@ void verdict_add(Verdicts *verdicts, const char *what, Estimate found, f64 expec
 {
     // Where an estimate has no variance the rounding of floats is left.
     const f64 error = hypot(found.error, 1e-6 * fabs(expected) + 1e-12), z = (found.mean - expected) / error;
-    print_message("%-52s %11.6g +- %7.1g, exact %11.6g, z %5.2f\n", what, found.mean, found.error, expected, z);
+    print_message("%-52s %11.6g +- %7.1g, exact %11.6g, z %5.2f\n", what, found.mean, found.error, expected,
+                  z);
     if (!(fabs(found.mean - expected) <= most))
         fail_msg("%s: %.9g is not within %.3g of %.9g", what, found.mean, most, expected);
     if (verdicts->count++ == 0 || normal_p(z) < verdicts->smallest_p) {
@@ -40,11 +41,11 @@ void verdicts_end(const Verdicts *verdicts)
 {
     assert_true(verdicts->count > 0);
     const f64 threshold = sidak_threshold(verdicts->count);
-    print_message("%u values; the worst z is %.2f, of '%s': p %.2g, threshold %.2g\n", verdicts->count, verdicts->z,
-                  verdicts->worst, verdicts->smallest_p, threshold);
+    print_message("%u values; the worst z is %.2f, of '%s': p %.2g, threshold %.2g\n", verdicts->count,
+                  verdicts->z, verdicts->worst, verdicts->smallest_p, threshold);
     if (!(verdicts->smallest_p > threshold))
-        fail_msg("%s: %.1f standard errors off, p %.2g of %.2g", verdicts->worst, verdicts->z, verdicts->smallest_p,
-                 threshold);
+        fail_msg("%s: %.1f standard errors off, p %.2g of %.2g", verdicts->worst, verdicts->z,
+                 verdicts->smallest_p, threshold);
 }
 
 Seeds seeds_render(Device *device, const Layout *layout, u32 first, u32 count)
@@ -96,7 +97,8 @@ static Difference difference_of_means(const Seeds *a, const Seeds *b, Part part)
         f64 sums[2] = {0, 0};
         for (u32 y = part.top; y < part.top + part.height; y++) {
             const size_t row = k * values + 3 * (size_t)a->width * y;
-            for (size_t i = row + 3 * (size_t)part.left; i < row + 3 * (size_t)(part.left + part.width); i++) {
+            for (size_t i = row + 3 * (size_t)part.left; i < row + 3 * (size_t)(part.left + part.width);
+                 i++) {
                 sums[0] += (f64)a->rgb[i];
                 sums[1] += (f64)b->rgb[i];
             }
@@ -125,8 +127,8 @@ static void expect_same_blocks(const Seeds *a, const Seeds *b, const char *what)
         const f64 t = student_t(&d);
         worst = fabs(t) > fabs(worst) ? t : worst;
         if (!(student_p(t, a->count - 1) > threshold))
-            fail_msg("%s: the block at (%u, %u) has a mean of %.6g and %.3g more: t %.2f", what, left, top, d.size,
-                     d.mean, t);
+            fail_msg("%s: the block at (%u, %u) has a mean of %.6g and %.3g more: t %.2f", what, left, top,
+                     d.size, d.mean, t);
     }
     print_message("%-40s %u blocks, the worst t is %.2f\n", what, columns * rows, worst);
 }
@@ -152,9 +154,10 @@ void expect_same_mean(const Seeds *a, const Seeds *b, f64 most, const char *what
     }
     const Difference mean = difference_of_means(a, b, (Part){0, 0, a->width, a->height});
     const f64 t = student_t(&mean);
-    print_message("%-40s %zu of %zu pixels pass, least p %.1g at (%zu, %zu), t rms %.3f\n", what, passed, pixels,
-                  smallest, worst % a->width, worst / a->width, sqrt(squares / (f64)values));
-    print_message("%-40s mean %.5g, apart by %.2g of it: t %.2f\n", what, mean.size, mean.mean / mean.size, t);
+    print_message("%-40s %zu of %zu pixels pass, least p %.1g at (%zu, %zu), t rms %.3f\n", what, passed,
+                  pixels, smallest, worst % a->width, worst / a->width, sqrt(squares / (f64)values));
+    print_message("%-40s mean %.5g, apart by %.2g of it: t %.2f\n", what, mean.size, mean.mean / mean.size,
+                  t);
     if (!((f64)passed >= PASS_SHARE * (f64)pixels))
         fail_msg("%s: %zu of %zu pixels differ", what, pixels - passed, pixels);
     if (!(fabs(t) <= 4) || !(fabs(mean.mean) <= most * mean.size))
