@@ -53,11 +53,31 @@ static f64 fill_texels(const Sky *sky, f32 *texels)
     return largest;
 }
 
-static f64 strength(const Layout *layout, u32 x, u32 y)
+static f64 texel_strength(const Layout *layout, u32 x, u32 y)
 {
     const EnvironmentRecord *record = layout->environment;
     const f32 *texel = layout->environment_texels + 3 * ((u64)y * record->width + x);
     return (f64)record->scale * ((f64)texel[0] + (f64)texel[1] + (f64)texel[2]);
+}
+
+// What of it directions are drawn for.
+static f64 strength(const Layout *layout, u32 x, u32 y)
+{
+    return fmax(texel_strength(layout, x, y) - (f64)layout->path.sky_floor, 0);
+}
+
+// The mean over all directions.
+static f64 mean_strength(const Layout *layout)
+{
+    const EnvironmentRecord *record = layout->environment;
+    f64 sum = 0;
+    for (u32 y = 0; y < record->height; y++) {
+        f64 row = 0;
+        for (u32 x = 0; x < record->width; x++)
+            row += texel_strength(layout, x, y);
+        sum += row * (cos(PI * y / record->height) - cos(PI * (y + 1.0) / record->height));
+    }
+    return sum / (2 * (f64)record->width);
 }
 
 // Turns weights into what comes before each, in shares of 2^32; returns their sum.
@@ -147,6 +167,17 @@ static bool add_guides(Layout *layout, Error *error)
     return true;
 }
 
+// MIS compensation: rays that surfaces draw find well what is everywhere alike, so that only what the sky has above its
+// mean is drawn for, and nothing of an even one (Karlik, Sik, Vevoda, Skrivan and Krivanek, "MIS Compensation: Optimizing
+// Sampling Techniques in Multiple Importance Sampling", 2019).
+static bool add_path_tables(Layout *layout, f64 largest, Error *error)
+{
+    if (layout->path.techniques == (LIGHTS_BY_LIGHTS | LIGHTS_BY_SURFACES))
+        layout->path.sky_floor = (f32)mean_strength(layout);
+    const bool even = (f64)layout->environment->scale * largest <= 1.0001 * (f64)layout->path.sky_floor;
+    return even || (add_tables(layout, error) && add_guides(layout, error));
+}
+
 static bool add_levels(Layout *layout, Error *error)
 {
     layout->environment_level_count = prefilter_plan(layout->environment);
@@ -181,15 +212,15 @@ bool environment_add(Layout *layout, const Scene *scene, bool lit, Error *error)
     EnvironmentRecord *record = layout->environment;
     const f64 turn = 0.5 + scene->environment.rotate / 360,
               largest = fill_texels(&sky, layout->environment_texels);
-    const bool prefiltered =
-        scene->render.environment_lighting == ENVIRONMENT_PREFILTERED && !layout->path.on;
+    const bool prefiltered = scene->render.environment_lighting == ENVIRONMENT_PREFILTERED;
     record->width = width;
     record->height = height;
     record->turn = (f32)(turn - floor(turn));
     record->scale = (f32)fmin(1 / fmax(largest, 1e-30), 1e30);
+    if (largest > 0 && layout->path.on)
+        return add_path_tables(layout, largest, error);
     if (largest > 0 && lit)
-        return prefiltered ? add_levels(layout, error)
-                           : add_tables(layout, error) && (!layout->path.on || add_guides(layout, error));
+        return prefiltered ? add_levels(layout, error) : add_tables(layout, error);
     if (!(largest > 0)) {
         page_free(layout->environment, sizeof *layout->environment);
         page_free(layout->environment_texels, count * sizeof *layout->environment_texels);

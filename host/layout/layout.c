@@ -149,7 +149,8 @@ static FeatureSet scene_features(const Scene *scene, const Layout *layout, const
             set |= transmittance_features(&scene->materials[i]);
     if (!features_have(set, FEATURE_UV))
         set &= ~feature_bit(FEATURE_MESH_UVS);
-    if (!features_have(set, FEATURE_LIGHTS))
+    // Paths meet lights by rays from the surface itself as well: both have to find the same.
+    if (!features_have(set, FEATURE_LIGHTS) || layout->path.on)
         set &= ~feature_bit(FEATURE_TERMINATOR);
     if (positive(scene->background) && !layout->path.on)
         set |= feature_bit(FEATURE_BACKGROUND);

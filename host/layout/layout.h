@@ -24,6 +24,7 @@ typedef struct PathLayout {
     u32 techniques;     // LIGHTS_BY_X
     u32 light_choices;  // lights that are looked at for each shadow ray
     u32 area_materials; // index of the material of the first area light
+    f32 sky_floor;      // strength of the environment (shared/environment.h) that lights do not look for
 } PathLayout;
 
 // All arrays are in whole pages (base/memory.h), so that devices can use them in place; those of no members

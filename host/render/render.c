@@ -80,7 +80,9 @@ static bool add_path(Render *render, Error *error)
     return !features_have(render->layout.features, FEATURE_PATH) ||
            (kernel_set_u32(render->kernel, "path_techniques", path->techniques, error) &&
             kernel_set_u32(render->kernel, "path_light_choices", path->light_choices, error) &&
-            kernel_set_u32(render->kernel, "path_area_materials", path->area_materials, error));
+            kernel_set_u32(render->kernel, "path_area_materials", path->area_materials, error) &&
+            (!features_have(render->layout.features, FEATURE_ENVIRONMENT_LIGHT) ||
+             kernel_set_f32(render->kernel, "environment_floor", path->sky_floor, error)));
 }
 
 static bool add_work_buffers(Render *render, Error *error)

@@ -29,6 +29,11 @@
 #define HAS_UV 1
 #endif
 
+#if HAS_TERMINATOR && HAS_PATH
+#undef HAS_TERMINATOR
+#define HAS_TERMINATOR 0
+#endif
+
 #if HAS_TERMINATOR && !HAS_MESH_NORMALS
 #undef HAS_MESH_NORMALS
 #define HAS_MESH_NORMALS 1

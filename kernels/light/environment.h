@@ -21,6 +21,7 @@ typedef struct {
     global const f32 *edges;
 #if HAS_PATH
     global const int *guides; // shared/environment.h
+    f32 floor;                // strength that is left to directions drawn by surfaces
 #endif
 #endif
 #if HAS_PREFILTERED
@@ -128,7 +129,11 @@ static inline vf cell_strength(const Environment *environment, const MapCell *ce
 {
     const vf scale = (vf)(environment->record->scale);
     const v3 c = cell->corner[corner];
+#if HAS_PATH
+    return vf_max(fma(c.z, scale, fma(c.y, scale, fma(c.x, scale, (vf)(-environment->floor)))), (vf)(0.0f));
+#else
     return fma(c.z, scale, fma(c.y, scale, c.x * scale));
+#endif
 }
 
 // Half of 1 - cos and of 1 + cos of the polar angle where rows of cells begin: neither loses the digits that

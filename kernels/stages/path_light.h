@@ -122,7 +122,7 @@ static inline vf light_weight(const PathSettings *path, vf density, vf draws, vf
         return alone ? (vf)(1.0f) / draws : (vf)(0.0f);
     if (!(path->techniques & LIGHTS_BY_SURFACES))
         return (vf)(1.0f) / draws;
-    return (alone ? (vf)(1.0f) : power_heuristic(density * draws, surface)) / draws;
+    return (alone ? (vf)(1.0f) : balance_heuristic(density * draws, surface)) / draws;
 }
 
 static inline v3 light_gain(const Hit *hit, const PathSettings *path, const PathParts *parts,
@@ -177,13 +177,6 @@ OUTLINE PathLightRay path_light_ray(const Hit *hit, const Shading *shading, glob
 #if HAS_SHADOWS
     ray.gain = v3_scale(ray.gain, sum / taken_weight);
 #endif
-#if HAS_TERMINATOR
-    // From where the ray starts to the same place at the same t.
-    const v3 way = v3_sub(hit->raised_point, hit->point);
-    const vf distance = ray.length * (1.0f / LIGHT_NEARER);
-    const v3 bent = v3_sub(ray.dir, v3_scale(way, (vf)(1.0f) / distance));
-    ray.dir = v3_select(hit->raised & (distance > (vf)(0.0f)), bent, ray.dir);
-#endif
     return ray;
 }
 #endif
@@ -197,7 +190,7 @@ static inline vf met_weight(const PathSettings *path, vf drawn, vf by_light)
         return (vf)(1.0f);
     if (!(path->techniques & LIGHTS_BY_SURFACES))
         return free ? (vf)(0.0f) : (vf)(1.0f);
-    return free ? power_heuristic(free ? drawn : (vf)(1.0f), by_light) : (vf)(1.0f);
+    return free ? balance_heuristic(free ? drawn : (vf)(1.0f), by_light) : (vf)(1.0f);
 }
 
 #if HAS_AREA_LIGHTS

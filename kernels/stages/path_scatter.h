@@ -36,13 +36,10 @@ typedef struct {
     vf density;
 } Scattering;
 
-// Share of `mine` in light that is looked for by this density and by `other`, by the power heuristic (Veach and
-// Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995). mine > 0.
-static inline vf power_heuristic(vf mine, vf other)
-{
-    const vf ratio = other / mine;
-    return (vf)(1.0f) / fma(ratio, ratio, (vf)(1.0f));
-}
+// Share of `mine` in light that is looked for by this density and by `other`: the balance heuristic (Veach and Guibas,
+// "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995). With well-spread points it is better than
+// the power heuristic (kernels/README.md). mine > 0.
+static inline vf balance_heuristic(vf mine, vf other) { return (vf)(1.0f) / (1.0f + other / mine); }
 
 #if HAS_PBR
 static inline void path_parts_pbr(const Hit *hit, PathParts *p)
@@ -62,8 +59,8 @@ static inline void path_parts_pbr(const Hit *hit, PathParts *p)
 }
 #endif
 
-// last: lanes where only light of area lights and the environment is looked for any more. Where lights are drawn for
-// that as well the lobe alone is followed, for which they would be drawn badly.
+// last: lanes where only light of area lights and the environment is looked for any more. Where no sky is there the
+// lobe alone is followed, for which points of area lights would be drawn badly.
 OUTLINE PathParts path_parts(const Hit *hit, const Shading *shading, const PathSettings *path, vm last)
 {
     PathParts p;
@@ -85,10 +82,14 @@ OUTLINE PathParts path_parts(const Hit *hit, const Shading *shading, const PathS
     p.mirror = last ? (vf)(0.0f) : brightness(p.scatter.reflect_weight);
     p.through = last ? (vf)(0.0f) : brightness(p.scatter.transmit_weight);
 #endif
+#if !HAS_ENVIRONMENT
     if (path->techniques & LIGHTS_BY_LIGHTS)
         p.body = last ? (vf)(0.0f) : p.body;
-    if (!(path->techniques & LIGHTS_BY_SURFACES))
+#endif
+    if (!(path->techniques & LIGHTS_BY_SURFACES)) {
+        p.body = last ? (vf)(0.0f) : p.body;
         p.lobe = last ? (vf)(0.0f) : p.lobe;
+    }
     const vf sum = (p.body + p.lobe) + (p.mirror + p.through);
     const vf inverse = sum > (vf)(0.0f) ? (vf)(1.0f) / sum : (vf)(0.0f);
     p.body = p.body * inverse;

@@ -167,7 +167,7 @@ kernel void render_tiles(constant RenderParams *params,
                          global const uint *environment_cdf, global const f32 *environment_edges,
 #endif
 #if HAS_ENVIRONMENT_LIGHT && HAS_PATH
-                         global const int *environment_guides,
+                         global const int *environment_guides, f32 environment_floor,
 #endif
 #if HAS_PREFILTERED
                          global const f32 *environment_levels,
@@ -256,6 +256,7 @@ kernel void render_tiles(constant RenderParams *params,
     shading.environment.edges = environment_edges;
 #if HAS_PATH
     shading.environment.guides = environment_guides;
+    shading.environment.floor = environment_floor;
 #endif
 #endif
 #if HAS_PREFILTERED
