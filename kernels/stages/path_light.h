@@ -122,7 +122,7 @@ static inline vf light_weight(const PathSettings *path, vf density, vf draws, vf
         return alone ? (vf)(1.0f) / draws : (vf)(0.0f);
     if (!(path->techniques & LIGHTS_BY_SURFACES))
         return (vf)(1.0f) / draws;
-    return (alone ? (vf)(1.0f) : balance_heuristic(density * draws, surface)) / draws;
+    return (alone ? (vf)(1.0f) : power_heuristic(density * draws, surface)) / draws;
 }
 
 static inline v3 light_gain(const Hit *hit, const PathSettings *path, const PathParts *parts,
@@ -190,7 +190,7 @@ static inline vf met_weight(const PathSettings *path, vf drawn, vf by_light)
         return (vf)(1.0f);
     if (!(path->techniques & LIGHTS_BY_SURFACES))
         return free ? (vf)(0.0f) : (vf)(1.0f);
-    return free ? balance_heuristic(free ? drawn : (vf)(1.0f), by_light) : (vf)(1.0f);
+    return free ? power_heuristic(free ? drawn : (vf)(1.0f), by_light) : (vf)(1.0f);
 }
 
 #if HAS_AREA_LIGHTS

@@ -36,10 +36,13 @@ typedef struct {
     vf density;
 } Scattering;
 
-// Share of `mine` in light that is looked for by this density and by `other`: the balance heuristic (Veach and Guibas,
-// "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995). With well-spread points it is better than
-// the power heuristic (kernels/README.md). mine > 0.
-static inline vf balance_heuristic(vf mine, vf other) { return (vf)(1.0f) / (1.0f + other / mine); }
+// Share of `mine` in light that is looked for by this density and by `other`, by the power heuristic (Veach and
+// Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995). mine > 0.
+static inline vf power_heuristic(vf mine, vf other)
+{
+    const vf ratio = other / mine;
+    return (vf)(1.0f) / fma(ratio, ratio, (vf)(1.0f));
+}
 
 #if HAS_PBR
 static inline void path_parts_pbr(const Hit *hit, PathParts *p)

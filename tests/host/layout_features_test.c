@@ -76,7 +76,10 @@ static void test_paths(void **state)
     expect_features(SHAPE_BALL RENDER_PATHS, ball);
     expect_features("render { integrator path ambient_occlusion 4 1 } " SHAPE_BALL, ball);
     expect_features(SHAPE_BALL LIGHT_LAMP RENDER_PATHS, lit | feature_bit(FEATURE_POINT));
-    expect_features("background 1 " SHAPE_BALL RENDER_PATHS, lit | sky);
+    // An even sky is found by rays that surfaces draw; where nothing casts shadows it is a light.
+    expect_features("background 1 " SHAPE_BALL RENDER_PATHS, ball | feature_bit(FEATURE_ENVIRONMENT));
+    expect_features("background 1 render { integrator path shadows off } " SHAPE_BALL,
+                    (lit | sky) & ~feature_bit(FEATURE_SHADOWS));
     expect_features("render { integrator path environment_lighting prefiltered } " SHAPE_BALL ENVIRONMENT_SKY(""),
                     lit | sky);
     expect_features(MATERIAL_M("transmit 0.5 reflect 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP RENDER_PATHS,

@@ -5,12 +5,12 @@
 static char scene_text[65536];
 
 // `points` point lights of brightness 1, 2, 3, ..., an area light before and one behind them, and a sky.
-static Layout *layout_of_lights(u32 points, const char *more)
+static Layout *layout_of_lights(u32 points, const char *settings, const char *more)
 {
     size_t used = (size_t)snprintf(scene_text, sizeof scene_text,
-                                   "render { integrator path }\nsphere { center 0 0 -5 radius 2 }\n%s"
+                                   "render { integrator path %s }\nsphere { center 0 0 -5 radius 2 }\n%s"
                                    "light sphere { center 0 9 0 radius 1 radiance 3 }\n",
-                                   more);
+                                   settings, more);
     for (u32 i = 0; i < points; i++)
         used += (size_t)snprintf(scene_text + used, sizeof scene_text - used,
                                  "light point { position %u 4 0 intensity %u }\n", i, i + 1);
@@ -45,7 +45,7 @@ static void test_few_lights(void **state)
 {
     (void)state;
     for (u32 points = 0; points <= LIGHT_CHOICES; points++) {
-        Layout *layout = layout_of_lights(points, "");
+        Layout *layout = layout_of_lights(points, "", "");
         const bool all = points + 2 <= LIGHT_CHOICES;
         assert_int_equal(layout->light_count, points + 2);
         assert_int_equal(layout->path.light_choices, all ? points + 2 : LIGHT_CHOICES);
@@ -98,7 +98,7 @@ static void test_extremes(void **state)
 static void test_order(void **state)
 {
     (void)state;
-    Layout *layout = layout_of_lights(12, "light spot { position 0 3 0 look_at 0 0 0 }\nbackground 1\n");
+    Layout *layout = layout_of_lights(12, "shadows off", "light spot { position 0 3 0 look_at 0 0 0 }\nbackground 1\n");
     assert_int_equal(layout->light_count, 1 + 1 + 12 + 1 + 1);
     assert_int_equal(layout->lights[0].kind, LIGHT_KIND_SPHERE);
     assert_int_equal(layout->lights[1].kind, LIGHT_KIND_RECTANGLE);

@@ -25,7 +25,7 @@ static const char room[] = "image { size 40 30 samples 64 }\n"
 
 // Under a sky with all that pbr has and path and whitted treat alike.
 static const char garden[] =
-    "image { size 40 30 samples 64 }\n"
+    "image { size 40 30 samples 256 }\n"
     "camera { position 0.5 2.5 7 look_at 0 0.75 0 fov 45 }\n"
     "environment { file \"sky.hdr\" intensity 0.5 rotate 40 }\n"
     "light rectangle { corner -2 3 -1.5 edge1 1.5 0 0 edge2 0 0.5 1 radiance 3 2 2 }\n"

@@ -7,7 +7,7 @@ enum { SEEDS = 32 };
 
 // Lights large enough to be found by rays that do not look for them.
 static const char scene[] =
-    "image { size 40 30 samples 64 }\n"
+    "image { size 40 30 samples 256 }\n"
     "camera { position 0.5 2.5 7 look_at 0 0.75 0 fov 45 }\n"
     "render { integrator path max_depth 3 }\n"
     "light sphere { center 2.5 2.5 1 radius 0.75 radiance 2 3 4 }\n"
