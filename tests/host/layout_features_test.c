@@ -80,8 +80,9 @@ static void test_paths(void **state)
     expect_features("background 1 " SHAPE_BALL RENDER_PATHS, ball | feature_bit(FEATURE_ENVIRONMENT));
     expect_features("background 1 render { integrator path shadows off } " SHAPE_BALL,
                     (lit | sky) & ~feature_bit(FEATURE_SHADOWS));
+    // The map of these tests is an even one.
     expect_features("render { integrator path environment_lighting prefiltered } " SHAPE_BALL ENVIRONMENT_SKY(""),
-                    lit | sky);
+                    ball | feature_bit(FEATURE_ENVIRONMENT));
     expect_features(MATERIAL_M("transmit 0.5 reflect 0.5") SHAPE_BALL_OF("m") LIGHT_LAMP RENDER_PATHS,
                     lit | feature_bit(FEATURE_POINT) | clear);
     // An area light has one record, whatever its samples are, and a black one too: it stands in the way.

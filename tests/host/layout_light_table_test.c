@@ -60,7 +60,7 @@ static void test_shares(void **state)
     (void)state;
     static const u32 counts[] = {7, 8, 15, 64, 500, 1000};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
-        Layout *layout = layout_of_lights(counts[i], i % 2 ? "background 2\n" : "");
+        Layout *layout = layout_of_lights(counts[i], "", i % 2 ? "background 2\n" : "");
         expect_shares(layout);
         // Point lights at one distance of the scene: their shares rise with their brightness.
         for (u32 k = 3; k < 2 + counts[i]; k++)
@@ -73,7 +73,7 @@ static void test_shares(void **state)
 static void test_extremes(void **state)
 {
     (void)state;
-    Layout *layout = layout_of_lights(20, "light directional { direction 0 -1 0 intensity 3e38 }\n");
+    Layout *layout = layout_of_lights(20, "", "light directional { direction 0 -1 0 intensity 3e38 }\n");
     expect_shares(layout);
     f64 least = 1, most = 0;
     for (u32 i = 0; i < layout->light_count; i++) {
