@@ -4,8 +4,8 @@
 
 #include "base/frame.h"
 #include "material/brightness.h"
-#include "stages/shade.h"
 #include "shared/light_table.h"
+#include "stages/shade.h"
 
 // What the scene and the command line say about paths.
 typedef struct {
